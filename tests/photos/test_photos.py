@@ -315,30 +315,39 @@ def test_pictures_of_something_else_are_refused(tmp_path: Path, name: str) -> No
     assert "\n" not in refused.value.text("uk")
 
 
-def busy(seconds: float, *parts: str | int) -> Iterator[str | int]:
-    """Parts, each after so many seconds of the processor."""
-    for part in parts:
-        until = time.process_time() + seconds
-        while time.process_time() < until:
-            pass
-        yield part
-
-
 @pytest.mark.parametrize(
     ("parts", "seconds", "more", "wrong", "given"),
     [
-        pytest.param((1, 2, 3), 0.15, 0.15, "", [1, 2, 3], id="longer in all than for one part"),
-        pytest.param((1, 2, 3), 0.01, 5.0, "drawing-late", [], id="too long for the first"),
-        pytest.param((1, 2, 3), 5.0, 0.01, "drawing-late", [1], id="too long for another"),
-        pytest.param((1, "photo-twice", 3), 5.0, 5.0, "photo-twice", [1], id="something is wrong"),
+        pytest.param((1, 2, 3), 15, 15, "", [1, 2, 3], id="longer in all than for one part"),
+        pytest.param((1, 2, 3), 1, 500, "drawing-late", [], id="too long for the first"),
+        pytest.param((1, 2, 3), 500, 1, "drawing-late", [1], id="too long for another"),
+        pytest.param((1, "photo-twice", 3), 500, 500, "photo-twice", [1], id="something is wrong"),
+        pytest.param((), 1, 500, "drawing-late", [], id="too long for nothing"),
     ],
 )
+@pytest.mark.parametrize("pause", [0.0, 0.03])
 def test_what_is_read_must_give_something_time_and_again(
-    parts: tuple[str | int, ...], seconds: float, more: float, wrong: str, given: list[int]
+    parts: tuple[str | int, ...],
+    seconds: float,
+    more: float,
+    wrong: str,
+    given: list[int],
+    pause: float,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    found = list[int]()
+    """Each part takes 8 of the clock's seconds, whether it is looked at when all have come or as it comes."""
+    clock, found = [0.0], list[int]()
 
-    said = apart._bounded(lambda n, part: found.append(part), lambda data: busy(0.08, *parts), b"", seconds, more)
+    def busy(data: bytes) -> Iterator[str | int]:
+        for part in parts:
+            clock[0] += 8
+            yield part
+            time.sleep(pause)
+        clock[0] += 8
+
+    monkeypatch.setattr(apart, "process_time", lambda: clock[0])
+
+    said = apart._bounded(lambda n, part: found.append(part), busy, b"", seconds, more)
 
     assert (said, found) == (wrong, given)
 

@@ -6,6 +6,7 @@ Forms of a PDF may hold forms, streams and pictures unpack into more than memory
 from __future__ import annotations
 
 import atexit
+from collections import deque
 from collections.abc import Callable, Iterable
 from functools import cache
 from threading import Thread
@@ -17,6 +18,7 @@ from .marks import FaultError
 
 MEMORY = 800_000_000  # bytes of that process
 PATIENCE, BEAT = 60.0, 0.02  # s, for a process to begin or to end; between looks at its time
+_ALL = object()  # comes after the last part
 LONGEST = 3600.0  # s, until a process is given up that does nothing, however busy the machine is
 
 
@@ -76,25 +78,29 @@ def _bounded(
 
     The processor's time counts, however busy that is.
     """
-    parts, whole, given = list[Any](), list[bool](), 0
+    parts, given = deque[tuple[Any, float]](), 0
 
     def work() -> None:
         for part in read(data):
-            parts.append(part)
-        whole.append(True)
+            parts.append((part, process_time()))
+        parts.append((_ALL, process_time()))
 
     worker = Thread(target=work, daemon=True)
     until = process_time() + seconds
     worker.start()
-    while worker.is_alive() or given < len(parts):
-        if given == len(parts):
+    while worker.is_alive() or parts:
+        if not parts:
             if process_time() >= until:
                 return "drawing-late"
             worker.join(BEAT)
             continue
-        part, parts[given] = parts[given], None
+        part, at = parts.popleft()
+        if at >= until:  # however late it is looked at
+            return "drawing-late"
+        if part is _ALL:
+            return ""
         if isinstance(part, str):
             return part
         give(given, part)
-        given, until = given + 1, process_time() + more
-    return "" if whole else "drawing-broken"
+        given, until = given + 1, at + more
+    return "drawing-broken"
