@@ -3,8 +3,15 @@
 from __future__ import annotations
 
 import gc
+import hashlib
 import os
+import pickle
+from collections.abc import Callable
+from contextlib import suppress
 from inspect import signature
+from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 from typing import Any
 
 import pytest
@@ -15,32 +22,85 @@ from kulman.scales.errors import VARIABLE
 from kulman.scales.kept import Kept
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 from kulman.variants import sheets
-from kulman.variants.case import Case
+from kulman.variants.case import Case, Request
 from kulman.variants.commands.settings import PLACE
+from kulman.variants.marking.keyed import Keyed
+from kulman.variants.photos import reading
+from kulman.variants.photos.pictures import Photo
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
-drawing_of, bundled_tasks = sheets.drawing_of, frozenset(bundled())
+drawing_of, read_page, blank_of = sheets.drawing_of, reading._read, reading._blank_of
+bundled_tasks, SHARED = frozenset(bundled()), "KULMAN_TESTS_SHARED"
 drawings = Kept[Drawn](most=40)  # what has been drawn last
+blanks, photographs = Kept[Any](most=8), Kept[Any](most=8)  # handouts, their pages that have been read, 12 MB each
 PARTS = (
     *("variant", "settings", "plans", "scales", "notation", "language"),
     *("format", "norm", "lettering", "positions", "as_wanted"),
 )
 
 
+def of_bundled(request: Request) -> str:
+    """Return the bundled task that is meant, nothing where it is another, or one that a test has changed."""
+    task = request.task
+    return task.id if task.id in bundled_tasks and task is load_task(task.id) else ""
+
+
 def drawn_once(case: Case) -> Drawn:
     """Draw a sheet of a bundled task, unless it has just been drawn for another test."""
-    named = case.task.id in bundled_tasks and case.task is load_task(case.task.id)
-    if not named or case.readings != SHEET:  # what a note reads by ruler has scale factors that nobody has asked for
+    task = of_bundled(case)
+    if not task or case.readings != SHEET:  # what a note reads by ruler has scale factors that nobody has asked for
         return drawing_of(case)
-    key = case.task.id, repr([getattr(case, part) for part in PARTS])
-    return drawings.get(key, lambda: drawing_of(case))
+    asked = repr([task, *(getattr(case, part) for part in PARTS)])
+    return drawings.get(asked, lambda: of_all_workers(asked, lambda: drawing_of(case)))
+
+
+def of_all_workers(asked: str, make: Callable[[], Any]) -> Any:
+    """Return what this worker or another one has made: it lies in a folder as long as the tests run."""
+    file = Path(os.environ[SHARED], hashlib.sha256(asked.encode()).hexdigest())
+    with suppress(FileNotFoundError):
+        return pickle.loads(file.read_bytes())
+    made = make()
+    (own := file.with_suffix(f".{os.getpid()}")).write_bytes(pickle.dumps(made))
+    own.replace(file)
+    return made
+
+
+def blank_once(request: Request, keyed: Keyed, language: str, paper: str) -> Any:
+    """Make the handout anew that was photographed, unless that has just been done."""
+    task, case = of_bundled(request), keyed.solution.case
+    if not task:
+        return blank_of(request, keyed, language, paper)
+    asked = repr([getattr(request, part, None) for part in PARTS]), repr((request.only, case.plans, case.settings))
+    return blanks.get(
+        (task, keyed.solution.variant, *asked, language, paper), lambda: blank_of(request, keyed, language, paper)
+    )
+
+
+def read_once(photo: Photo, blank: Any) -> Any:
+    """Read a photographed page, unless it has just been read for another test, or of another student."""
+    key = photo.picture, photo.number, photo.code, repr((photo.markers, photo.centre)), blank.codes, repr(blank.poles)
+    return photographs.get(key, lambda: read_page(photo, blank))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the folder of all workers, who are started with its name in their environment."""
+    if not hasattr(config, "workerinput"):
+        os.environ[SHARED] = mkdtemp()
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Remove the folder of all workers."""
+    if not hasattr(config, "workerinput"):
+        rmtree(os.environ.pop(SHARED), ignore_errors=True)
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Let tests that change parts of the program draw anew, and leave nothing to others."""
+    """Let tests that change parts of the program draw and read anew, and leave nothing to others."""
     changing = isinstance(item, pytest.Function) and "monkeypatch" in signature(item.function).parameters
     sheets.drawing_of = drawing_of if changing else drawn_once
+    reading._read = read_page if changing else read_once
+    reading._blank_of = blank_of if changing else blank_once
 
 
 os.environ.pop(VARIABLE, None)  # tests choose the language of messages themselves, those in processes too

@@ -76,24 +76,6 @@ def plans(sheet: Sheet) -> dict[str, set[Shape]]:
     return {view.name: set(view.shapes) for view in views_of(sheet) if view.name.startswith(PLANS)}
 
 
-KEPT: dict[object, Drawn] = {}
-
-
-def once(case: Case) -> Drawn:
-    """Draw a case for print once for all tests, which change nothing of it."""
-    asked = (case.task.id, case.variant, case.format or PAPER, case.norm, case.notation, case.language)
-    if asked not in KEPT:
-        KEPT[asked] = drawing_for_print(case)
-    return KEPT[asked]
-
-
-@pytest.fixture
-def drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let handouts of one case share their drawing."""
-    monkeypatch.setattr("kulman.variants.sheets.drawing_for_print", once)
-
-
-@pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize("task", TASKS)
 def test_a_handout_grows_step_by_step_into_the_key(task: str) -> None:
     def drawn(**how: Any) -> list[set[object]]:
@@ -110,7 +92,6 @@ def test_a_handout_grows_step_by_step_into_the_key(task: str) -> None:
 
 
 @pytest.mark.soak
-@pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize("task", [pytest.param("madi-cam", marks=pytest.mark.soak), "madi-gear"])
 def test_lines_break_off_only_at_letters_that_a_begun_handout_shows(task: str) -> None:
     for view in (view for steps in (1, 2, 3) for view in views_of(handout(task, steps=steps))):
@@ -123,7 +104,6 @@ def test_lines_break_off_only_at_letters_that_a_begun_handout_shows(task: str) -
                 assert any(box.intersects(gap) for box in boxes), (view.name, a.name)
 
 
-@pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize("task", TASKS)
 def test_a_blank_has_no_answers(task: str) -> None:
     blank = handout(task)
@@ -244,7 +224,6 @@ def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
     assert [key for key, text in named.items() if not text or re.search(r"(?<![_^]){", text)] == []
 
 
-@pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize(
     "task", [pytest.param(task, marks=[pytest.mark.soak] * (task not in EVERY_KIND[:1])) for task in EVERY_KIND]
 )
@@ -269,14 +248,12 @@ def test_a_table_of_a_blank_asks_and_a_text_has_only_its_heading(task: str) -> N
             assert {text.markup for text in texts} <= known, view.name
 
 
-@pytest.mark.usefixtures("drawn_once")
 def test_no_distance_can_be_measured_on_a_blank_of_gears() -> None:
     for view in views_of(handout("madi-gear")):
         points = [part.name for part in all_groups(view) if part.role in ("point", "pivot")]
         assert len(points) <= 1, (view.name, points)
 
 
-@pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize(
     "task", [pytest.param(task, marks=() if task == "madi-four-bar" else pytest.mark.soak) for task in LINKAGES]
 )
@@ -325,7 +302,7 @@ OTHERS = [name for name in bundled() if name not in (TASK, "madi-gear", "karpenk
 @pytest.mark.parametrize("task", [TASK, *(pytest.param(name, marks=pytest.mark.soak) for name in OTHERS)])
 def test_nothing_is_drawn_from_what_an_earlier_plan_has_yet_to_find(task: str) -> None:
     case = Request(load_task(task), "0" if task == TASK else None).case()
-    drawn, program = once(case), {step.name: step for step in case.solved.program}
+    drawn, program = drawing_for_print(case), {step.name: step for step in case.solved.program}
     if case.task.kind == "mechanism":
         program = {step.name: step for step in placed(case).program}
     found = finders(case, drawn)
@@ -358,7 +335,7 @@ NEEDS = {  # of gears and hoists, whose figures show what formulas give: what mu
 @pytest.mark.parametrize("task", ["madi-gear", "karpenko-hoist"])
 def test_figures_of_formulas_wait_for_what_others_find(task: str) -> None:
     case = Request(load_task(task), None).case()
-    drawn = once(case)
+    drawn = drawing_for_print(case)
     for steps in range(12):
         shown = shown_after(case, drawn, steps)
         for (_, view, stage), (other, need) in ((key, at) for key, at in NEEDS.items() if key[0] == task):
