@@ -13,6 +13,11 @@ _GROUPED = rf"[0-9]{{1,3}}(?:[{SPACES}][0-9]{{3}})+(?![0-9])"
 _NUMBER = re.compile(
     rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
 )
+_SIGNS, _RAISED = "0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻"
+_TIMES_TEN = re.compile(  # 7,31·10², 7,31*10^2, 7,31 х 10**2: the power of ten that stands behind a number
+    rf"(?<=[0-9.,])[{SPACES}]*[*·⋅×∙•xх][{SPACES}]*10"
+    rf"(?:(?:\^|\*\*)(?P<open>\()?(?P<flat>[+\-\u2212\u2013]?[0-9]{{1,3}})(?(open)\))|(?P<raised>[{_RAISED}]{{1,4}}))(?![0-9])"
+)
 _UNDER = re.compile(r"\s*/\s*([1-9][0-9]*)(?![0-9.,])")  # what makes a fraction of a whole number
 SHOWN = 200  # characters of a path, a reason or a list in a message
 TIE = 1e-14  # part of a number by which arithmetic may leave it below a half
@@ -34,11 +39,25 @@ def quote(text: object, longest: int = 40) -> Written:
     return Written(line if len(line) <= longest else line[: longest - 1] + "…")
 
 
+def _e(found: re.Match[str]) -> str:
+    """Return a power of ten as a calculator writes it."""
+    return f"e{(found['flat'] or found['raised'].translate(str.maketrans(_RAISED, _SIGNS))).translate(_PLAIN)}"
+
+
+def with_power(text: str) -> str:
+    """Return a text with the power of ten of its number behind an `e`.
+
+    >>> with_power("7,31·10² Н"), with_power("1,2 * 10^(-3) м"), with_power("7,31·102")
+    ('7,31e2 Н', '1,2e-3 м', '7,31·102')
+    """
+    return _TIMES_TEN.sub(_e, text, count=1) if "10" in text else text
+
+
 def split_number(text: str) -> tuple[float, str]:
     """Return the number that `text` begins with, and the rest of it without the spaces around.
 
     A comma is always a decimal comma (`1,500` is one and a half), spaces part only whole groups of three digits; two
-    whole numbers with a slash between are a fraction.
+    whole numbers with a slash between are a fraction; a power of ten may stand behind it (`7,31·10²`).
 
     Raises
     ------
@@ -51,14 +70,17 @@ def split_number(text: str) -> tuple[float, str]:
     (-1500.0, 'Н')
     >>> split_number("1/4")
     (0.25, '')
+    >>> split_number("7,31·10² Н")
+    (731.0, 'Н')
     """
     stripped = text.strip()
     if not stripped:
         raise InputError("number-empty")
-    found = _NUMBER.match(stripped)
+    written = with_power(stripped)
+    found = _NUMBER.match(written)
     if found is None:
         raise InputError("number-bad", text=quote(stripped))
-    rest = stripped[found.end() :].strip()
+    rest = written[found.end() :].strip()
     under = _UNDER.match(rest) if found.group().isdigit() else None
     if under is not None:
         rest = rest[under.end() :].strip()

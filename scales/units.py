@@ -258,7 +258,7 @@ def _unknown(text: str) -> InputError:
     like = like or get_close_matches(folded, [known for known in _SPELLINGS if len(known) > 1], n=1, cutoff=0.6)
     if like:
         return InputError("unit-unknown-like", text=quote(text), like=UnitName(_SPELLINGS[like[0]]))
-    return InputError("unit-unknown", text=quote(text), known=", ".join(_COMMON))
+    return InputError("unit-unknown", text=quote(text), known=UnitName(", ".join(_COMMON)))
 
 
 def parse(text: str, expected: Unit, default: Unit | None = None) -> float:
@@ -333,13 +333,14 @@ def bounded(value: float, of: Unit, text: object, least: float = SMALLEST) -> fl
 
 
 class UnitName(Spoken):
-    """The name of a unit, which messages spell as paper does."""
+    """The name of a unit, or names with commas between, which messages spell as paper does."""
 
     __slots__ = ()
 
     def said(self, language: str) -> str:
         """Return the spelling in `language`."""
-        return str(self) if language == "en" else format_unit(str(self), language) or str(self)
+        names = self.split(", ")
+        return str(self) if language == "en" else ", ".join(format_unit(name, language) or name for name in names)
 
 
 @cache

@@ -65,7 +65,7 @@ REFUSED = {  # by key and the unit that is expected
     ("number-infinite", "N"): ("-1.1e9 N",),
     ("number-infinite", "Pa"): ("1.1e15 Pa",),
     ("number-infinite", "%"): ("1/" + "9" * 400, "9" * 400 + "/3"),
-    ("unit-unknown", "m"): ("0x10 mm", "5 furlong", "5 m^99", "5 (m", "5 m)", "5 m/", "5 " + "(" * 100_000),
+    ("unit-unknown", "m"): ("0x10 mm", "5 furlong", "5·103 mm", "5 m^99", "5 (m", "5 m)", "5 m/", "5 " + "(" * 100_000),
     ("unit-unknown", "%"): ("1/0", "0.5/3", "1/3.5"),
     ("unit-unknown-like", "N"): ("5 mN",),
     ("unit-missing", "m"): ("5",),
@@ -78,14 +78,20 @@ REFUSED = {  # by key and the unit that is expected
 READ = {  # SI value, by the unit that is expected and the text
     "m": {"55 mm": 55 / 1000, "55,5 mm": 0.0555, "55.5мм": 0.0555, "12 см": 0.12, "5 мкм": 5e-6, "3 / 4 mm": 0.75e-3}
     | {".5 m": 0.5, "5. m": 5.0, "0.3 mm": 0.3 / 1000},
-    "mm": {"1e-3 m": 1e-3},
+    "mm": dict.fromkeys(("1e-3 m", "1*10^-3 m", "1 · 10⁻³ м", "1х10^(−3) м", "1,0×10**-3 м"), 1e-3),
     "rad/s": {"90 град/с": math.pi / 2}
     | dict.fromkeys(("765 об/хв", "765 об/мин", "765 rpm", "765 r/min", "765 1/min", "765 хв⁻¹"), 765 * math.pi / 30),
     "rpm": {"12 с^-1": 12.0, "12 1/s": 12.0, "12 рад/с": 12.0},
     "rad/s^2": {"3 с⁻²": 3.0},
     "rad": {"60°": math.pi / 3, "60 град": 60 * math.pi / 180, "30°30′": 30.5 * math.pi / 180},
     "deg": {"-30°30'": -30.5 * math.pi / 180, "123 deg": 123 * math.pi / 180},
-    "N": {"2 кН": 2000.0, "2 кH": 2000.0, "1 500 Н": 1500.0, "1\u00a0500\u202f000,5 Н": 1500000.5},  # a Latin H
+    "N": {
+        "2 кН": 2000.0,
+        "2 кH": 2000.0,
+        "1 500 Н": 1500.0,
+        "1,5·10³ Н": 1500.0,
+        "1\u00a0500\u202f000,5 Н": 1500000.5,
+    },  # a Latin H
     "N*m": {"−5 Н·м": -5.0, "70 N*mm": 0.07} | {"5 Нм": 5.0, "5Nm": 5.0, "5 кНм": 5000.0, "70 Нмм": 0.07},
     "kg*m^2": {"0,015 кг·м²": 0.015, "0,015 кг*м2": 0.015, "0,015 кг м^2": 0.015, "150 g*cm^2": 150 / 1e7}
     | dict.fromkeys(("0,015 кгм²", "0,015 kgm^2", "0,015 кгм2"), 0.015),
@@ -112,6 +118,18 @@ def test_what_is_no_quantity_of_the_wanted_kind_is_refused(key: str, expected: s
         assert caught.value.key == key
         assert all("\n" not in caught.value.text(language) for language in LANGUAGES)
         assert len(caught.value.text()) < 200
+
+
+def test_units_that_are_known_are_told_as_people_write_them() -> None:
+    with pytest.raises(InputError) as caught:
+        parse("5 furlong", unit("m"))
+
+    for language, spelled in {
+        "uk": "об/хв, рад/с, кг, кг·м², Н",
+        "ru": "об/мин",
+        "en": "rpm, rad/s, kg, kg*m^2",
+    }.items():
+        assert spelled in caught.value.text(language)
 
 
 def test_units_are_spelled_as_on_a_sheet_and_no_two_share_a_spelling() -> None:

@@ -226,6 +226,17 @@ def test_columns_that_changed_places_are_put_back_and_others_stay(tmp_path: Path
     assert in_place.lines["V_B"].mm == pytest.approx(55.2)
 
 
+def test_who_exchanges_columns_in_a_class_is_put_right_and_nobody_else(tmp_path: Path) -> None:
+    head = "ПІБ;варіант;mu_V;V_A.mm;V_A;V_B.mm;V_B;V_BA.mm;V_BA\n"
+
+    right, exchanged = read(tmp_path, f"{head}Один;1;0,05;80;4;55,2;2,76;42;2,1\nДва;1;0,05;4;80;2,76;55,2;2,1;42\n")
+
+    assert right.problems == ()
+    assert ["row 3: " in text and "each other's place" in text for text in messages(exchanged)] == [True]
+    for answers in (right, exchanged):
+        assert (answers.lines["V_B"].mm, answers.lines["V_B"].value) == pytest.approx((55.2, 2.76))
+
+
 def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
     head = "ПІБ;варіант;mu_V;V_B.mm;V_B;V_B.dir;omega_2 [рад/с];a_B, м/с²;V_C\n"
 

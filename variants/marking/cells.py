@@ -16,7 +16,7 @@ from typing import NamedTuple
 from ...plans.marking.answers import nearest
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError
-from ...scales.numbers import quote, split_number
+from ...scales.numbers import quote, split_number, with_power
 from ...scales.scale import Display
 from ...scales.units import Unit, bounded, converted, unit
 from ..spreadsheets.grid import UNDERSTOOD, Grid, tidy
@@ -136,8 +136,11 @@ def checked(grid: Grid, row: int, column: int | None) -> str:
 
 
 def signed(text: str) -> str:
-    """Return a number with the sign directly before it that stands apart from it, or behind it: `28.79 (+)`."""
-    text = text.translate(_WIDE)
+    """Return a number with the sign directly before it that stands apart from it, or behind it: `28.79 (+)`.
+
+    That it is told to be rounded, `≈ 28.79`, says nothing more.
+    """
+    text = text.translate(_WIDE).lstrip("≈~∼ ")
     if text[:1] in "+-−–" and text[1:2].isspace():
         return text[0] + text[1:].lstrip()
     if not text.endswith(_BEHIND):
@@ -193,7 +196,7 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
 def rounded(text: str, value: float | None) -> float | None:
     """Return half of the last digit of a number as written, in the unit of its value; None where it has none."""
     number, rest = split_number(text)
-    written = text.strip().lower()
+    written = with_power(text.strip()).lower()
     mantissa, _, power = written[: len(written) - len(rest)].strip().replace(",", ".").partition("e")
     if not value or not number or "/" in mantissa:
         return None

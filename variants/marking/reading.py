@@ -329,6 +329,14 @@ class _Sheet:
         (bare, side), (written, other) = map(cells.split_side, (bare, written))
         return bare, written, next((x for x in (angle, side, other) if x is not None), None), sense
 
+    def put_in_place(self, place: str) -> None:
+        """Exchange segments and values where nearly all lines of a student agree only so; `place` is told of it."""
+        only = [_only_exchanged(line, self.scales, self.asked) for line in self.lines.values()]
+        told = [exchanged for exchanged in only if exchanged is not None]
+        if len(told) >= FEWEST and sum(told) >= MOST * len(told):
+            self.lines = {name: _in_place(line, self.asked) for name, line in self.lines.items()}
+            self.problems.append(LocatedError(place, InputError("answers-swapped")))
+
     def answers(self, source: str, about: Mapping[str, str], columns: tuple[str, ...] = ()) -> Answers:
         """Return what has been read."""
         return Answers(source, Who.of(about), about, self.lines, self.scales, tuple(self.problems), columns)
@@ -350,11 +358,7 @@ def _form(grid: Grid, header: int, kinds: Mapping[str, int], asked: Asked) -> An
         _form_row(sheet, row, kinds, columns)
     if not sheet.lines and not sheet.problems:
         raise InputError("answers-none", file=quote(grid.file, SHOWN))
-    only = [_only_exchanged(line, sheet.scales, asked) for line in sheet.lines.values()]
-    told = [exchanged for exchanged in only if exchanged is not None]
-    if len(told) >= FEWEST and sum(told) >= MOST * len(told):  # nearly all lines agree only when exchanged
-        sheet.lines = {name: _in_place(line, asked) for name, line in sheet.lines.items()}
-        sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))
+    sheet.put_in_place(grid.place(header))
     return sheet.answers(grid.file, about)
 
 
@@ -430,12 +434,13 @@ def _class(
                 sheet.scale(_Cell(row, first, name, written))
             else:
                 sheet.reply(row, name, parts, grid.place(row, min(column for column, _ in parts.values())))
+        sheet.put_in_place(grid.place(row))
         if strangers and not warn and sheet.lines:
             sheet.problems[:0], strangers = strangers, []  # told once, not for each student
         yield sheet.answers(grid.place(row), said, asked_here)
 
 
-# Forms in which segments and values stand in each other's column.
+# Answers of which segments and values stand in each other's column.
 
 NEAR = 0.05  # part by which a product may differ from what it should be
 FEWEST, MOST = 3, 0.8  # lines that must tell, and what part of them that they are exchanged
