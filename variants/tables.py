@@ -19,6 +19,7 @@ from html import escape
 from importlib import import_module
 from itertools import groupby
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
 
 from ..drawing.writers import WRITERS, Files, save_all
@@ -43,7 +44,9 @@ DANGEROUS = tuple("=+-@|%\t\r\n＝＋－＠")  # with which programs begin a for
 # the same behind what another program, or one of another country, takes for the end of a cell; -5 mm is no formula
 _INSIDE = re.compile(r"([,;\t\r\n][^\S\t\r\n]*+)(?=[=@|%＝＠]|[-+－＋][^,;\t\r\n]*[(|!=@])")
 _CREATED = datetime(2000, 1, 1)
-_WIDEST, _PIXELS = 60, 7  # characters of a column, and how wide each is
+_WIDEST, _PIXELS, _LINE = 45, 7, 15  # characters of a column, how wide each is, and points that a line is high
+_PORTRAIT, _LANDSCAPE, _SCREEN = 120, 330, 180  # characters that pages, printed small, and a screen are wide
+_A4 = 9  # the number of that paper
 MANY = 5_000  # rows from which on writing them takes seconds
 # who is told how much more of a long table is written, and of how much
 watching: ContextVar[Callable[[int, int], None] | None] = ContextVar("watching", default=None)
@@ -542,31 +545,55 @@ def _rounded(value: float) -> str:
 def _xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
     """Return rows as a workbook of one sheet, named by a title; texts are texts there, whatever they begin with.
 
-    `bold` rows are counted from 0, so many as are `frozen` stay in sight when the sheet is scrolled. Columns are as
-    wide as their longest texts, but for a text that has its row to itself.
+    `bold` rows are counted from 0; so many as are `frozen`, the last of them the heads, stay in sight when the sheet is
+    scrolled, and of a wide sheet its first column. Columns are as wide as their longest texts, up to a limit; what is
+    longer, and heads, go on in a next line, and a text that has its row to itself goes over all columns. A wide sheet
+    is printed in landscape, on as many pages side by side as it can be read on.
     """
     from xlsxwriter import Workbook  # takes a tenth of a second
 
     stream = io.BytesIO()
     name = "".join(c for c in title if c.isprintable() and c < "\U00010000" and c not in r"[]:*?/\'")[:31]
-    widths: dict[int, int] = {}
-    with Workbook(stream, {"in_memory": True}) as book:
+    widths, long = dict[int, int](), list[tuple[int, int, str]]()
+    with Workbook(stream, {"in_memory": True, "default_format_properties": {"valign": "top"}}) as book:
         book.set_properties({"created": _CREATED})
         sheet, looks = book.add_worksheet(name or "1"), dict.fromkeys(bold, book.add_format({"bold": True}))
+        wrapped, heads = book.add_format({"text_wrap": True}), book.add_format({"bold": True, "text_wrap": True})
         if frozen:
-            sheet.freeze_panes(frozen, 0)
+            looks[frozen - 1] = heads
         tell = _teller(len(rows), len(rows))
         for at, row in enumerate(rows):
             for column, cell in enumerate(row):
+                length = len(str(cell)) if cell is not None else 0
                 if len(row) > 1:
-                    widths[column] = max(widths.get(column, 8), len(str(cell)) if cell is not None else 0)
+                    if at == frozen - 1:  # heads go on in a next line
+                        length = max(map(len, str(cell).split()), default=0)
+                    widths[column] = max(widths.get(column, 8), length)
                 if isinstance(cell, str) and cell:
                     plain = "".join(c if c.isprintable() or c == "\n" else " " for c in cell[:LONGEST])
                     plain = f" {plain}" if plain.startswith("<r>") else plain  # XlsxWriter would take it for XML
-                    sheet.write_string(at, column, plain, looks.get(at))
+                    sheet.write_string(at, column, plain, looks.get(at, wrapped if length > _WIDEST else None))
+                    if at == frozen - 1 or length > _WIDEST:
+                        long.append((at, column, plain))
                 elif isinstance(cell, int | float) and math.isfinite(cell):
                     sheet.write_number(at, column, float(_rounded(cell)), looks.get(at))
             tell(1)
+        widths = {column: min(width, _WIDEST) + 2 for column, width in widths.items()}
+        whole, lines = sum(widths.values()), dict[int, int]()
         for column, width in widths.items():
-            sheet.set_column_pixels(column, column, _PIXELS * (min(width, _WIDEST) + 2))
+            sheet.set_column_pixels(column, column, _PIXELS * width)
+        for at, column, text in long:
+            alone = len(rows[at]) == 1 < len(widths)
+            if alone:
+                sheet.merge_range(at, 0, at, max(widths), text, wrapped)
+            lines[at] = max(lines.get(at, 1), len(wrap(text, whole if alone else widths.get(column, _WIDEST))))
+        for at, count in lines.items():  # not every program finds out by itself
+            sheet.set_row(at, _LINE * count)
+        sheet.set_paper(_A4)
+        sheet.fit_to_pages(math.ceil(whole / _LANDSCAPE), 0)
+        if whole > _PORTRAIT:
+            sheet.set_landscape()
+        if frozen:
+            sheet.freeze_panes(frozen, int(whole > _SCREEN))
+            sheet.repeat_rows(frozen - 1)
     return stream.getvalue()

@@ -267,6 +267,22 @@ def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
     assert all(cell.data_type != "f" for row in book.active.iter_rows() for cell in row)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_hints_of_a_form_are_seen_whole_and_it_is_printed_on_pages_one_wide(tmp_path: Path, language: str) -> None:
+    sheet = openpyxl.load_workbook(form(tmp_path, "form.xlsx", language)).active
+    assert sheet is not None
+    wide = sum(column.width * (column.max - column.min + 1) for column in sheet.column_dimensions.values())
+    hints = [row for row in sheet.iter_rows() if len(str(row[0].value)) > 100]
+
+    assert hints
+    for row in hints:
+        assert row[0].alignment.wrap_text
+        assert any(row[0].coordinate in span and span.size["columns"] == len(row) for span in sheet.merged_cells)
+        assert (sheet.row_dimensions[row[0].row].height or 0.0) >= 15.0 * len(str(row[0].value)) / wide
+    assert (sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToHeight) == (True, 0)
+    assert sheet.page_setup.orientation == "portrait"
+
+
 def test_an_apostrophe_keeps_a_text_a_text_and_it_comes_back(tmp_path: Path) -> None:
     file = tmp_path / "a.csv"
     file.write_bytes(csv_table([["x", "=1+1", "-5 mm", 1.5], ["V_B", "V_A", "V_BA", 2]], "uk"))

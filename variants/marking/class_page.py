@@ -15,7 +15,7 @@ from .keyed import Rubric
 from .marked import Marked
 from .report import STYLE, scripts
 from .result import Lines, Result, class_lines, commonest, flags_of, marked_of, names_of, shared
-from .wording import mistake_texts, texts
+from .wording import heads, mistake_texts, texts
 
 PAGE = ".html"
 PICTURED = 5  # mistakes that have a picture
@@ -93,7 +93,7 @@ class ClassPage:
         """Return a row for each student: mark, first wrong step, mistakes in words, what is to be checked."""
         said, language = self.said, self.request.language
         keys = "about.student", "about.group", "about.variant", "class.mark", "class.first", "report.candidates"
-        heads = "".join(f"<th>{escape(said[key])}</th>" for key in (*keys, "report.flags"))
+        shown_heads = "".join(f"<th>{escape(head)}</th>" for head in heads((*keys, "report.flags"), language))
         rows = list[str]()
         names = names_of(self.lines, language)
         for name, line, flags in zip(names, self.lines, flags_of(self.lines, language), strict=True):
@@ -109,7 +109,7 @@ class ClassPage:
                 kind = "absent" if line.empty else kind
             shown = "".join(f"<td{' class=m' if at == 3 else ''}>{cell}</td>" for at, cell in enumerate(cells))
             rows.append(f'<tr class="{kind}"><td>{len(rows) + 1}</td>{shown}</tr>')
-        return f"<table><tr><th>№</th>{heads}</tr>{''.join(rows)}</table>"
+        return f"<table><tr><th>№</th>{shown_heads}</tr>{''.join(rows)}</table>"
 
     def _mistake(self, name: str, students: list[Result], at: int) -> str:
         """Return what was done, by how many and whom, and the plan of one of them over the right one."""

@@ -19,7 +19,7 @@ from ..roster import WHO, Entry, Who
 from ..tables import Cell
 from .marked import TOLD_APART, Marked
 from .reading import Answers, Reply
-from .wording import mistake_texts, texts
+from .wording import heads, mistake_texts, texts
 
 FOUND = ("meet", "arc", "arcs", "tangent", "similar", "divide", "template")  # verbs that find a mark by drawing
 LEAST_MM = 5.0  # shorter segments say little
@@ -329,33 +329,35 @@ def commonest(lines: Lines) -> list[tuple[str, list[Result]]]:
 
 
 def class_rows(lines: Lines, language: str) -> Iterator[tuple[Cell, ...]]:
-    """Go through the rows of the table: a header, the students in their order, commonest mistakes."""
+    """Go through the rows of the table: a header, the students in their order, commonest mistakes.
+
+    A number, an address and a code of the sheet have no column where nobody has any.
+    """
     said = texts(language)
-    keys = (*(f"about.{key}" for key in (*WHO, "variant", "sheet")), "class.mark")
+    told = [key for key in WHO if key not in ("number", "email") or any(getattr(line.who, key) for line in lines)]
+    sheets = any(isinstance(line, Result) and line.sheet for line in lines)
+    keys = (*(f"about.{key}" for key in (*told, "variant", *["sheet"] * sheets)), "class.mark")
     keys += tuple(f"verdict.{verdict}" for verdict in Verdict)
     keys += ("class.first", "report.candidates", "report.flags", "report.notes", "report.source", "class.report")
-    yield tuple(said[key] for key in keys)
+    yield heads(keys, language)
     for line, flags in zip(lines, flags_of(lines, language), strict=True):
-        who = tuple(getattr(line.who, key) for key in WHO)
+        who = (*(getattr(line.who, key) for key in told), line.variant)
         if isinstance(line, Entry):
             yield (
                 *who,
-                line.variant,
-                None,
-                *(None,) * (len(Verdict) + 4),
+                *(None,) * (sheets + 1 + len(Verdict) + 3),
                 said["class.absent"],
                 spoken(line.place, language),
             )
             continue
         counts = tuple(line.counts.get(str(verdict)) for verdict in Verdict)
-        told = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.noted(language)))
+        about = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.noted(language)))
         yield (
             *who,
-            line.variant,
-            line.sheet,
+            *[line.sheet] * sheets,
             line.mark,
             *counts,
-            *told,
+            *about,
             spoken(line.source, language),
             ", ".join(line.reports),
         )

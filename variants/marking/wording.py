@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ...drawing.words import Words
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
@@ -42,6 +42,12 @@ def script_runs(text: str) -> Iterator[tuple[str, int]]:
         start = found.end()
     if text[start:]:
         yield text[start:], 0
+
+
+def heads(keys: Iterable[str], language: str) -> tuple[str, ...]:
+    """Return words over columns, which all begin small, also those that stand over a part of a report elsewhere."""
+    said = texts(language)
+    return tuple(said[key][:1].lower() + said[key][1:] for key in keys)
 
 
 def mistake_texts(language: str) -> dict[str, str]:
