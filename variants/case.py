@@ -517,11 +517,14 @@ def positions_of(argument: str, value: int, most: int | None = None) -> int:
 
 
 def plans_wanted(value: Wanted, task: Task) -> tuple[str, ...]:
-    """Return the plans that `only` names, each alone or several with commas between; all of the task for none."""
+    """Return the plans that `only` names, each alone or several with commas between; all of the task for none.
+
+    They come in the order of the work, however they are named.
+    """
     if value is None:
         return task.plans
     of_kind("only", value, (str, Iterable), "list[str]")
     items = (value,) if isinstance(value, str) else tuple(value)
-    plans = names_of("only", items)
-    all_known("plan-unknown", plans or items[:1], kind_of(task.kind).plans)
-    return plans or task.plans
+    plans, known = names_of("only", items), kind_of(task.kind).plans
+    all_known("plan-unknown", plans or items[:1], known)
+    return tuple(plan for plan in known if plan in plans) or task.plans

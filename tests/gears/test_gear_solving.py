@@ -307,9 +307,10 @@ def test_only_the_plans_wanted_are_built_in_sections_that_have_headings(solution
         ("geometry", SECTIONS[:6], ()),
         ("meshing", SECTIONS[:7], ("meshing",)),
         ("sliding", (*SECTIONS[:6], SECTIONS[7]), ("sliding", "theta")),
-        ("meshing,sliding", SECTIONS, ("meshing", "sliding", "theta")),
+        ("sliding,meshing", SECTIONS, ("meshing", "sliding", "theta")),
     ):
         found = solve(TASK, only=only)
+        assert found.case.plans == tuple(plan for plan in PLANS if plan in only.split(","))
         assert tuple(dict.fromkeys(map(section_of, found))) == sections
         assert tuple(found.solved.scale_of_plan) == drawn
         assert set(PLANS) >= {*only.split(",")}

@@ -20,7 +20,7 @@ import click
 
 from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
-from ...scales.names import unknown
+from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from . import completing
 from .helping import Command, place
@@ -228,7 +228,7 @@ def usage_error(error: click.UsageError, words: Sequence[str], commands: click.G
 
 
 class Word(TextType):
-    """One of a few words, in capitals or not."""
+    """One of a few words, in capitals or not, also with Cyrillic letters that look like theirs: А3."""
 
     name = "word"
 
@@ -238,8 +238,9 @@ class Word(TextType):
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the word that is meant."""
+        meant = latin(value.strip()).lower()
         for word in self.words:
-            if word.lower() == value.strip().lower():
+            if word.lower() == meant:
                 return word
         option = param.opts[0] if param else ""
         raise unknown("cli-choice", value.strip(), self.words, option=option)
