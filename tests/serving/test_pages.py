@@ -182,6 +182,10 @@ def test_answers_are_marked_as_the_command_marks_them(client: TestClient, tmp_pa
     assert summary[0] in report
     assert "5.622" in report
 
+    assert "answers.csv" not in report
+    told = client.post(f"/task/{TASK}/check?v=3", data={field["V_A"]: "5,86", field["V_B"]: "abc"})
+    report = client.get(told.headers["location"].removeprefix(client.base_url.path.rstrip("/"))).text
+    assert "<li>V_B: &#x27;abc&#x27; is not a number" in report
     nothing = client.post(f"/task/{TASK}/check?v=3", data={})
     assert 'role="alert"' in nothing.text
 

@@ -100,7 +100,8 @@ class Report:
         told = {key: getattr(who, key) or getattr(answers.who, key) for key in WHO}
         told = {"task": solution.task.id, "variant": solution.variant, **told, "sheet": self.marked.keyed.sheet}
         yield from ((self.said[f"about.{key}"], value) for key, value in told.items() if value or key not in WHO)
-        yield self.said["report.source"], spoken(answers.source, self.language)
+        if answers.source:
+            yield self.said["report.source"], spoken(answers.source, self.language)
 
     def summary(self) -> Iterator[str]:
         """Go through mark, tolerance, verdicts by number, and the first wrong step."""
@@ -264,7 +265,7 @@ class Report:
 
 
 COLUMNS = ("column.name", "report.answer", "report.right", "report.tolerance_column", "report.verdict", "report.weight")
-OWN = (0, 1, 4)  # columns that a student sees
+OWN, VERDICT = (0, 1, 4), 4  # columns that a student sees, and the one of words
 
 
 def report_text(report: Report) -> str:
@@ -287,7 +288,8 @@ STYLE = """
 body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
 h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
 table{border-collapse:collapse;width:100%}th,td{border:1px solid #888;padding:1mm 2mm;text-align:left}
-th{background:#eee}td.n{white-space:nowrap}tr.wrong td,tr.uncounted td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
+th{background:#eee}td.n,.lines td:not(.v){white-space:nowrap}
+tr.wrong td,tr.uncounted td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
 tr.missing td,tr.small td{color:#666}.first{font-weight:bold}
 sub,sup{font-size:70%;line-height:0}
 svg{width:100%;max-height:150mm;border:1px solid #ccc}svg path{fill:none;stroke-width:.5}
@@ -322,11 +324,14 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
     columns = OWN if report.own else range(len(COLUMNS))
     heads = "".join(f"<th>{escape(said[COLUMNS[i]])}</th>" for i in columns)
     for heading, rows in report.parts:
-        yield f"<section><h2>{escape(heading)}</h2><table><tr>{heads}</tr>"
+        yield f'<section class="lines"><h2>{escape(heading)}</h2><table><tr>{heads}</tr>'
         for row in rows:
             verdict = f"{SIGNS.get(row.line.verdict, '✗')} {escape(row.verdict)}"
-            cells = scripts(row.symbol), *map(escape, row[2:5]), verdict, escape(row.weight)
-            yield f'<tr class="{row.line.verdict}">{"".join(f"<td>{cells[i]}</td>" for i in columns)}</tr>'
+            answer, right, tolerance = map(escape, row[2:5])
+            right = right.replace(" → ", "<br>→ ")
+            cells = scripts(row.symbol), answer, right, tolerance, verdict, escape(row.weight)
+            shown = (f"<td{' class=v' * (i == VERDICT)}>{cells[i]}</td>" for i in columns)
+            yield f'<tr class="{row.line.verdict}">{"".join(shown)}</tr>'
         yield "</table></section>"
     if report.marked.sheets is not None:
         from ..photos.returned import pictures

@@ -18,7 +18,7 @@ from ...drawing.svg import svg_text
 from ...drawing.words import Words
 from ...drawing.writers import SUFFIXES as DRAWN
 from ...drawing.writers import slug
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, Written
 from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ..batches.batch import batch, write_roster
@@ -323,7 +323,10 @@ def form(advance: Advance, asked: Asked) -> tuple[Rows, Mapping[str, Sequence[st
 
 
 def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str], preset: str, own: bool) -> str:
-    """Return the report on a form whose cells have been filled in, as a page; `own` is one without right numbers."""
+    """Return the report on a form whose cells have been filled in, as a page; `own` is one without right numbers.
+
+    It says which quantity a note is about, as the form calls it: cells have no addresses there, nor has it a file.
+    """
     ready = _check(asked, preset=preset, own=own)
     rows = [list(row) for row in read_grid(ready.write_form("answers.csv")).rows]
     for (row, column), text in cells.items():
@@ -332,7 +335,18 @@ def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str
             if column < len(rows[row]):
                 rows[row][column] = text
     Path("answers.csv").write_bytes(csv_table(rows, asked.language))
-    return report_html(ready.mark(ready.read("answers.csv")[0]))
+    (answers,) = ready.read("answers.csv")
+    symbols = {row[0]: row[1] for row in rows if len(row) > 1}
+    problems = tuple(_about_quantity(problem, symbols) for problem in answers.problems)
+    return report_html(ready.mark(replace(answers, source="", problems=problems)))
+
+
+def _about_quantity(problem: KulmanError, symbols: Mapping[str, str]) -> KulmanError:
+    """Return what is wrong in a form with the symbol of its quantity in the place of file, cell and name."""
+    if not isinstance(problem, LocatedError):
+        return problem
+    name = problem.place.rpartition(", ")[2]
+    return LocatedError(Written(symbols[name]), problem.cause) if name in symbols else problem.cause
 
 
 @dataclass(frozen=True, slots=True)
