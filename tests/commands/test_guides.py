@@ -20,7 +20,7 @@ from kulman.variants.shelf import GUIDES
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TYPED = re.compile(r"\s*(kulman|py|python3?|source|uv|echo|_KULMAN\w*) ")  # lines of blocks that a user types
-SPOKEN = re.compile(r'(?<= )(--lang |lang=")\w+')
+SPOKEN = re.compile(r'(?<= )(--lang |lang=")\w+|(?<=^language = ")\w+')
 TRANSLATED = [path for path in refresh.DOCUMENTS if refresh.language(path) != "en"]
 
 
@@ -48,7 +48,9 @@ def test_a_document_says_the_same_in_every_language(path: Path) -> None:
     english = next(path.parent.glob(f"{path.name.partition('.')[0]}.en.md"), refresh.READMES[0])
 
     assert skeleton(path) == skeleton(english)
-    assert not re.search(r"\.en\.md", path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    assert not re.search(r"\.en\.md", text)
+    assert {refresh.language(path)} >= {*re.findall(r'^language = "(\w+)"', text, re.MULTILINE)}  # settings to copy
 
 
 @pytest.mark.parametrize("path", refresh.GUIDES, ids=lambda path: path.name)
