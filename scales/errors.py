@@ -152,6 +152,10 @@ class InputError(KulmanError, ValueError):
     """What was asked or given cannot be used; nothing has been written."""
 
 
+class UnknownNameError(InputError, KeyError):
+    """A mapping has nothing of this name: `solution.get` and `in` know it as the usual error of mappings."""
+
+
 class PositionError(KulmanError, ArithmeticError):
     """The mechanism has no plan in this position: it is singular or cannot be assembled.
 

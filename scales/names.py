@@ -3,19 +3,35 @@
 from __future__ import annotations
 
 import difflib
+import os
 import unicodedata
-from collections.abc import Collection, Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import wraps
+from inspect import signature
+from itertools import chain, repeat
+from numbers import Integral
+from typing import Any, ParamSpec, TypeVar
 
-from .errors import InputError, Written
+from .errors import InputError, UnknownNameError, Written
 from .numbers import quote
 
 _CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
 _ALIKE = str.maketrans(_CYRILLIC, _LATIN)
 LONGEST = 200  # characters of a list of names in a message
+P = ParamSpec("P")
+R = TypeVar("R")
+_KINDS: dict[str, tuple[type, ...]] = {  # of the parts of what a signature says of an argument
+    "None": (type(None),),
+    "PathLike": (str, os.PathLike),
+    "bool": (bool,),
+    "float": (int, float),
+    "int": (int, Integral),
+    "os.PathLike[str]": (os.PathLike,),
+    "str": (str,),
+}
 
 
-def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> InputError:
+def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> UnknownNameError:
     """Return the error for a name that is not in `known`: with the name that was meant, or with all there are.
 
     Parameters
@@ -38,11 +54,11 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
         having = [name for name in names if text.casefold() in name.casefold()]  # scheme-03, crank-rocker
         only = having if len(having) == 1 else []
         for meant in folded or turned or only or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
-            return InputError(f"{key}-like", text=quote(text), like=Written(meant), **data)
+            return UnknownNameError(f"{key}-like", text=quote(text), like=Written(meant), **data)
     names.sort(key=lambda name: len(text) < 3 or text.casefold() not in name.casefold())  # shaper: first what has it
     shown = ", ".join(names)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST].rpartition(', ')[0]}, …"
-    return InputError(key, text=quote(text), known=Written(shown or "—"), **data)
+    return UnknownNameError(key, text=quote(text), known=Written(shown or "—"), **data)
 
 
 def latin(text: str) -> str:
@@ -50,10 +66,10 @@ def latin(text: str) -> str:
     return text.translate(_ALIKE)
 
 
-def cyrillic(text: str) -> InputError:
+def cyrillic(text: str) -> UnknownNameError:
     """Return the error for a name with a Cyrillic letter that looks like a Latin one."""
     letter = next(letter for letter in text if letter in _CYRILLIC)
-    return InputError("name-cyrillic", text=quote(text), n=text.index(letter) + 1, letter=latin(letter))
+    return UnknownNameError("name-cyrillic", text=quote(text), n=text.index(letter) + 1, letter=latin(letter))
 
 
 def seen(text: str) -> str:
@@ -82,6 +98,38 @@ def of_kind(name: str, value: object, kinds: tuple[type, ...], expected: str) ->
     """
     if not isinstance(value, kinds):
         raise InputError("argument-type", name=name, expected=expected, text=quote(type(value).__name__))
+
+
+def of_its_kinds(*block: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Let a function refuse arguments that are not of the kind that its signature says, and names it does not know.
+
+    Arguments whose kinds are not all in `_KINDS` are left to the function; `block` are the names of its `**block`.
+
+    >>> of_its_kinds()(latin)(3)
+    Traceback (most recent call last):
+    kulman.scales.errors.InputError: text: expected str, not int
+    """
+
+    def of_one(function: Callable[P, R]) -> Callable[P, R]:
+        arguments_of = signature(function).parameters.values()
+        notes = {one.name: "" if one.annotation is one.empty else one.annotation for one in arguments_of}
+        places = [one.name for one in arguments_of if one.kind in (one.POSITIONAL_OR_KEYWORD, one.VAR_POSITIONAL)]
+        known = (*(name for name in notes if name != "block"), *block)
+
+        @wraps(function)
+        def checked(*arguments: P.args, **named: P.kwargs) -> R:
+            if block:
+                all_known("argument-unknown", named, known)
+            for name, value in (*zip(chain(places, repeat(places[-1])), arguments, strict=False), *named.items()):
+                note = notes.get(name, notes.get("block", ""))
+                kinds = [_KINDS.get(part) for part in note.split(" | ")]
+                if None not in kinds:
+                    of_kind(name, value, tuple(kind for several in kinds for kind in several or ()), note)
+            return function(*arguments, **named)
+
+        return checked
+
+    return of_one
 
 
 def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:

@@ -59,7 +59,7 @@ class Request:
     """What is asked of a task, by the keywords that every function of the package has; `block` is for title blocks."""
 
     task: Task
-    variant: str | None = None
+    variant: str | int | None = None
     settings: Settings | None = None  # in the place of givens
     only: Wanted = None
     scales: Settings | None = None
@@ -76,7 +76,6 @@ class Request:
     def case(self) -> Case:
         """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""
         task = self.task
-        of_kind("variant", self.variant, (str, int, type(None)), "str | None")
         variant, settings = task.variant(self.variant).id, by_name("set", self.settings)
         plans = plans_wanted(self.only, task)
         values, words = task.values(variant, settings), task.words(variant, settings)
@@ -506,11 +505,10 @@ def _choosable(task: Task, name: str, text: object, solved: Solved) -> None:
         raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
 
 
-def positions_of(argument: str, value: int, most: int | None = None) -> int:
+def positions_of(value: int, most: int | None = None) -> int:
     """Return a number of positions or sections that a cycle can have, at `most` so many."""
     from ..plans.linkages.cycle import FEWEST, MOST  # brings numpy, which most commands do without
 
-    of_kind(argument, value, (int,), "int")
     if not FEWEST <= value <= (most or MOST):
         raise InputError("positions-number", n=quote(value), least=FEWEST, most=most or MOST)
     return value

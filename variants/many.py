@@ -22,7 +22,7 @@ from ..plans.linkages.solved import board_givens
 from ..plans.quantities import Quantity, results, unit_of
 from ..plans.solved import Columned
 from ..scales.errors import InputError, Written
-from ..scales.names import all_known, by_name, names_of, unknown
+from ..scales.names import all_known, by_name, names_of, of_its_kinds, unknown
 from ..scales.numbers import quote
 from ..scales.series import Series
 from ..scales.units import UnitName, converted, parse, unit
@@ -133,9 +133,10 @@ def parts_of(values: Array, point: bool = False) -> dict[str, Array]:
     return {**size, "x": values.real, "y": values.imag}
 
 
+@of_its_kinds()
 def solve_many(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Mapping[str, Many] | None = None,
     only: Wanted = None,

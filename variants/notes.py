@@ -29,7 +29,7 @@ from ..drawing.text import escape
 from ..drawing.writers import WRITERS, Files
 from ..scales.choices import PLAIN, READINGS, RULER, SHEET
 from ..scales.errors import InputError
-from ..scales.names import all_known, unknown
+from ..scales.names import of_its_kinds, unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from ..scales.scale import Fixed
@@ -103,9 +103,10 @@ class Note(Saved):
 TITLED = ("student", "group", "teacher", "department", "designation", "date")  # what a title page says of a student
 
 
+@of_its_kinds(*TITLED)
 def note(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Settings | None = None,
     only: Wanted = None,
@@ -138,7 +139,6 @@ def note(
     InputError, PositionError
         As for `sheet`; or there is no such figure.
     """
-    all_known("argument-unknown", block, ("readings", "profile", "figure", "format", "notation", *TITLED))
     if readings not in READINGS:
         raise unknown("readings-unknown", readings, READINGS)
     if profile not in PROFILES:

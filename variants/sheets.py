@@ -25,7 +25,7 @@ from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..scales.errors import InputError, KulmanError
-from ..scales.names import all_known, latin, of_kind, seen, unknown
+from ..scales.names import latin, of_its_kinds, of_kind, seen, unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
@@ -125,9 +125,10 @@ class Sheet:
         return "".join(picture(self.svg(number), self.pages[0].title) for number in range(1, len(self.pages) + 1))
 
 
+@of_its_kinds()
 def sheet(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Settings | None = None,
     only: Wanted = None,
@@ -233,18 +234,12 @@ def drawing_of(case: Case) -> Drawn:
     if case.positions is not None:
         if case.kind.moves:
             raise InputError("kind-without", task=quote(case.task.id), text="--positions")
-        positions_of("positions", case.positions, MOST_DRAWN)
+        positions_of(case.positions, MOST_DRAWN)
     error = case.solved.error()
     if error is not None:
         raise error
     with lettered(case.lettering, case.language):
         return case.kind.draw(case, case.words(), case.norm, paper)
-
-
-def titled(block: Mapping[str, str]) -> Mapping[str, str]:
-    """Return what a title block is asked to say; refuse what it has no place for."""
-    all_known("argument-unknown", block, BLOCK)
-    return block
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
@@ -336,9 +331,10 @@ def variant_of_id(task: Task, written: str) -> str | None:
     return next((name for name in task.variants if same_id(written, sheet_id(task, name))), None)
 
 
+@of_its_kinds(*BLOCK)
 def handout(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     steps: int = 0,
     key: bool = False,
@@ -384,7 +380,6 @@ def handout(
         As for `sheet`; a number of steps below zero; no such view; steps or a hidden key beside the key; steps, a grid
         or a hidden key with one view alone; markers beside any of these, without their package or without room.
     """
-    of_kind("steps", steps, (int,), "int")
     if steps < 0:
         raise InputError("handout-steps", text=quote(steps))
     asked = {"--key": key, "--over": over is not None, "--hidden-key": hidden_key, "--grid": grid, "--steps": steps > 0}
@@ -392,7 +387,7 @@ def handout(
     for first, second in APART:
         if asked[first] and asked[second]:
             raise InputError("handout-apart", first=first, second=second)
-    how = set, only, scales, notation, lang, format, norm, titled(block), lettering
+    how = set, only, scales, notation, lang, format, norm, block, lettering
     case = Request(load_task(task), variant, *how).case()
     drawing = drawing_for_print(case)
     if scan:

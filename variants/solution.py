@@ -12,7 +12,7 @@ from ..drawing.words import Words
 from ..plans.quantities import Quantity, measured
 from ..plans.solved import Check, Solved
 from ..scales.errors import InputError, PositionError
-from ..scales.names import unknown
+from ..scales.names import of_its_kinds, unknown
 from ..scales.scale import Scale
 from .case import Case, Kind, Request, Settings, Wanted
 from .reader import load_task
@@ -70,10 +70,6 @@ class Solution(OfCase, Mapping[str, Quantity]):
         if name not in self.quantities:
             raise unknown("quantity-unknown", name, self.quantities)
         return self.quantities[name]
-
-    def __contains__(self, name: object) -> bool:
-        """Tell whether there is a quantity of this name."""
-        return name in self.quantities
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the quantities, in order of construction."""
@@ -231,9 +227,10 @@ def _condition(words: Words, condition: Condition | None) -> tuple[str, str]:
     return "–" if condition.value is None else words.short(condition.value, 3), words.short(condition.sine, 3)
 
 
+@of_its_kinds()
 def solve(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Settings | None = None,
     only: Wanted = None,

@@ -187,7 +187,7 @@ class Task:
         """The text of the file that says all this, as it is now."""
         return decoded(Path(self.file).read_bytes()) if self.file else bundled_text(self.id)
 
-    def variant(self, variant_id: str | None = None) -> Variant:
+    def variant(self, variant_id: str | int | None = None) -> Variant:
         """Return a variant, the first one without an id; its number will do: `4`, `04`, `№ 4`, `V04` are alike."""
         if variant_id is None:
             return next(iter(self.variants.values()))

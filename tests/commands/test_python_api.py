@@ -35,6 +35,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "missing file": ({"task": Path("none.toml")}, "file-missing"),
     "unknown variant": ({"variant": "11"}, "variant-unknown"),
     "variant of no kind": ({"variant": ["3"]}, "argument-type"),
+    "variant of a float": ({"variant": 3.0}, "argument-type"),
     "set as a text": ({"set": "l_OA=3"}, "argument-type"),
     "set by a number": ({"set": {1: 3}}, "argument-type"),
     "set of an unknown given": ({"set": {"l_XX": 3}}, "given-unknown"),
@@ -54,13 +55,13 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "plans as a number": ({"only": 3}, "argument-type"),
     "unknown language": ({"lang": "de"}, "language"),
     "unknown notation": ({"notation": "x"}, "notation-unknown"),
-    "notation of no kind": ({"notation": 3}, "notation-unknown"),
+    "notation of no kind": ({"notation": 3}, "argument-type"),
 }
 WRONG_SHEET: dict[str, tuple[dict[str, Any], str]] = {
     "unknown format": ({"format": "A9"}, "format-unknown"),
-    "format of no kind": ({"format": 3}, "format-unknown"),
+    "format of no kind": ({"format": 3}, "argument-type"),
     "unknown norm": ({"norm": "din"}, "norm-unknown"),
-    "no language": ({"lang": None}, "language"),
+    "no language": ({"lang": None}, "argument-type"),
     "student of no kind": ({"student": None}, "argument-type"),
     "date of no kind": ({"date": datetime.date(2026, 1, 2)}, "argument-type"),
     "name too long": ({"student": "щ" * 500}, "stamp-too-long"),
@@ -110,6 +111,38 @@ def test_what_is_not_said_is_the_same_from_python_and_the_command_line(verb: str
             assert str(parameter.default).removesuffix(".0") == str(options[name]), name
         else:  # nothing; of documents Ukrainian, when no language is said
             assert parameter.default in (parameter.empty, None, False, "", "uk"), name
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_an_argument_of_another_kind_is_refused_by_its_name(verb: str, tmp_path: Path) -> None:
+    needed = {"task": TASK, "roster": "class.csv", "folder": tmp_path, "only": "position", "make": 1}
+    arguments = inspect.signature(VERBS[verb]).parameters
+    named = [name for name, one in arguments.items() if one.kind is not one.VAR_KEYWORD]
+
+    for name in {*named} - {"norm", "advance"}:  # a word that is compared, and what may be anything that is called
+        with pytest.raises(KulmanError, match=f"^{name}: expected "):
+            VERBS[verb](**{key: needed[key] for key in needed if key in named} | {name: object()})
+
+
+def test_an_argument_that_there_is_not_is_answered_with_all_that_there_are() -> None:
+    with pytest.raises(KulmanError, match="unknown argument 'tile'; expected one of: task, variant, steps, key, "):
+        kulman.handout(TASK, tile="A4")
+    with pytest.raises(KulmanError, match="unknown argument 'position'; did you mean positions"):
+        kulman.sweep(TASK, position=5)
+
+
+@pytest.mark.parametrize("variant", ["3", 3, np.int64(3)])
+def test_a_variant_is_a_text_or_a_whole_number(variant: Any) -> None:
+    assert kulman.solve(TASK, variant).variant == kulman.check(TASK, variant).request.variant == "3"
+
+
+def test_what_a_result_has_not_is_missing_as_of_any_mapping(solution: Solution) -> None:
+    states, swept = kulman.solve_many(TASK, phi=[1.0, 2.0], names="V_B"), kulman.sweep(TASK, only="velocity")
+    for found in (solution, states, swept):
+        assert "V_X" not in found
+        with pytest.raises(KeyError, match="there is no quantity 'V_X'"):
+            found["V_X"]
+    assert solution.get("V_X") is None
 
 
 @pytest.mark.parametrize("value", [40, 40.0, "40", "4 cm", np.float64(40), np.int64(40), np.float32(40)])

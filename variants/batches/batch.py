@@ -26,7 +26,7 @@ from ...plans.quantities import measured
 from ...scales.choices import SHEETS
 from ...scales.errors import InputError, KulmanError, Written, spoken, system_language
 from ...scales.kept import Kept
-from ...scales.names import all_known, by_name
+from ...scales.names import all_known, by_name, names_of, of_its_kinds
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
@@ -38,7 +38,7 @@ from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_by_mistake
-from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of, titled
+from ..sheets import BLOCK, PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, save_form
 from ..task import AnyTask, Task
@@ -333,12 +333,13 @@ def _put(path: Path, data: bytes) -> None:
     write_whole(path, data)
 
 
+@of_its_kinds(*BLOCK)
 def batch(
     task: Tasks,
     roster: str | os.PathLike[str],
     folder: str | os.PathLike[str],
     *,
-    kinds: Sequence[str] = ("svg", "pdf", NOTE),
+    kinds: Wanted = ("svg", "pdf", NOTE),
     digits: int | str | None = None,
     set: Settings | None = None,
     only: Wanted = None,
@@ -398,12 +399,13 @@ def batch(
         The roster, or an argument, is at fault for all; or a file cannot be written: what is done stays.
     """
     tasks = _tasks(task)
+    kinds = names_of("kinds", kinds)
     all_known("batch-kind", kinds, FORMS)
     if merge and not MERGED.keys() & {*kinds}:
         raise InputError("batch-merge", known=", ".join(MERGED))
     if scan and HANDOUT not in kinds:
         raise InputError("batch-scan")
-    wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(titled(block))
+    wanted = only if only is None or isinstance(only, str) else names_of("only", only)
     how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block, lettering
     once = _once(tasks)
     making = _Making(

@@ -24,7 +24,7 @@ from ...plans.lab.race import FULL, Contest, Entry
 from ...plans.laws import TURN
 from ...plans.linkages.cycle import Cycle
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import all_known, names_of, of_kind
+from ...scales.names import all_known, names_of, of_its_kinds
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
 from ...scales.version import __version__
@@ -329,9 +329,10 @@ class Charts(OfCase):
         return f"<Charts {self.task.id} {self.variant}: {', '.join(self.charts)}>"
 
 
+@of_its_kinds()
 def chart(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Settings | None = None,
     only: Wanted = None,
@@ -387,9 +388,8 @@ def chart(
     names, wanted = names_of("chart", chart), names_of("quantities", quantities)
     all_known("chart-unknown", names, gallery)
     if positions is not None:
-        positions_of("positions", positions)
+        positions_of(positions)
     most = _per_cent(tolerance)
-    of_kind("hand", hand, (str,), "str")
     scene = Scene(case, case.words(), hand, wanted, positions, most)
     changed = {"quantities": bool(wanted), "hand": hand != HAND}
     changed |= {"tolerance": most != TOLERANCE, "positions": positions is not None}
@@ -414,7 +414,6 @@ def chart(
 
 def _per_cent(tolerance: str | float) -> float:
     """Return a tolerance in per cent, zero or more."""
-    of_kind("tolerance", tolerance, (str, int, float), "float")
     per_cent = unit("%")
     try:
         most = parse(tolerance, per_cent, per_cent) * 100.0 if isinstance(tolerance, str) else float(tolerance)

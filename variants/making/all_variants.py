@@ -16,7 +16,7 @@ from ...plans.hands.shaky import Hand
 from ...plans.hands.shaky import preset as preset_of
 from ...plans.names import role
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import all_known, names_of, unknown
+from ...scales.names import all_known, names_of, of_its_kinds, unknown
 from ...scales.numbers import quote
 from ...scales.units import format_unit
 from ..case import Settings, Wanted
@@ -199,6 +199,7 @@ def _symbol(key: Keyed, name: str) -> str:
     return f"{html(markup)}{escape(whole.removeprefix(found))}" if whole.startswith(found) else scripts(whole)
 
 
+@of_its_kinds()
 def all_variants(
     task: AnyTask,
     variant: Wanted = None,

@@ -15,7 +15,7 @@ from itertools import starmap
 
 from ...drawing.writers import slug
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import by_name, of_kind
+from ...scales.names import by_name
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
 from ..case import Request, Settings, kind_of
@@ -69,7 +69,6 @@ def make_variants(
     Where too few sets are good an error says what was wrong last.
     """
     found = load_task(task)
-    of_kind("count", count, (int,), "int")
     if not 1 <= count <= MOST:
         raise InputError("variants-count", n=MOST)
     fixed = {name: str(value) for name, value in by_name("set", set).items()}

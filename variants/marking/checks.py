@@ -19,7 +19,7 @@ from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import seldom_collected
-from ...scales.names import by_name
+from ...scales.names import by_name, of_its_kinds
 from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
@@ -50,19 +50,20 @@ class Check(Terms):
 
     def __repr__(self) -> str:
         """Return task, variant and how many quantities may be answered."""
-        of = " ".join(filter(None, (self.request.task.id, self.request.variant)))
+        of = f"{self.request.task.id} {self.request.variant or ''}".strip()
         return f"<Check {of}: {len(self.asked.quantities)} quantities>"
 
     def form(self) -> tuple[list[tuple[str, ...]], dict[str, tuple[str, ...]]]:
         """Return the rows of the empty form of one student, and which columns each answer has (scale factors: mu)."""
         key = Desk(self).keyed(fullest(self.request), {})
-        about = {"task": self.request.task.id, "variant": self.request.variant or ""}
+        about = {"task": self.request.task.id, "variant": str(self.request.variant or "")}
         if self.request.only is not None:
             about[PLANS] = ", ".join(self.request.only)
         scales = dict.fromkeys((name for part in key.parts for name in part.scales), ("mu",))
         answers = {question.name: columns_of(question) for part in key.parts for question in part.asked}
         return [*form_rows(key, about, self.rubric.asked)], scales | answers
 
+    @of_its_kinds()
     def write_form(self, file: PathLike) -> Path:
         """Write the empty form, .csv or .xlsx: of one student, or with a roster of the whole class.
 
@@ -87,6 +88,7 @@ class Check(Terms):
             frozen = head + 1
         return save_form(file, TABLES, rows, language, task.id, bold, frozen)
 
+    @of_its_kinds()
     def read(self, *names: str, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
         """Read the answers in files, folders, patterns.
 
@@ -221,9 +223,10 @@ def reported(desk: Desk, answers: Answers) -> tuple[Report, Result]:
     return Report(marked, terms.rubric, language, terms.own, result.flags(language)), result
 
 
+@of_its_kinds()
 def check(
     task: PathLike | Task,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Settings | None = None,
     only: Wanted = None,
@@ -273,12 +276,12 @@ def check(
     [80.9]
     """
     of = load_task(task)
-    variant = None if variant is None else of.variant(variant).id
+    wanted = None if variant is None else of.variant(variant).id
     if format is not None:
         format_named(format)
     Digits.of(digits)
     plans, language = None if only is None else plans_wanted(only, of), "en" if lang is None else lang
-    request = Request(of, variant, by_name("set", set), plans, by_name("scales", scales), notation, language, format)
+    request = Request(of, wanted, by_name("set", set), plans, by_name("scales", scales), notation, language, format)
     unformatted = replace(request, variant=fullest(request), format=None)  # the same is asked on every format
     solution = solved(unformatted)
     asked, whole = asked_of(solution), solution if plans is None else solved(replace(unformatted, only=None))

@@ -436,7 +436,7 @@ def fullest(request: Request) -> str:
         return 0
 
     if request.variant is not None or not kind_of(of.kind).unequal:
-        return request.variant or next(iter(of.variants))
+        return str(request.variant or next(iter(of.variants)))
     return max(of.variants, key=asks)
 
 

@@ -193,7 +193,7 @@ def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str
         return variant_of_book(task, book, terms.digits) if book else ""
 
     found = (entry.variant or by_book()) if entry else ""
-    found = found or terms.request.variant or (said if said in task.variants else "") or by_book()
+    found = found or str(terms.request.variant or "") or (said if said in task.variants else "") or by_book()
     found = found or variant_of_id(task, about.get("sheet", "")) or ""
     if not found:
         found = next(iter(task.variants))

@@ -417,8 +417,8 @@ def _class(
         lost = (text, "", "") if text.startswith("?_") else None
         of, read = quantity_part(text) or lost, column in columns or column in about.values()
         if of is not None and not read and of[0] not in asked.others | asked.unasked and ("_" in text or of[1]):
-            error = unknown("quantity-unknown", of[0], asked.names)
-            strangers.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
+            place = f"{grid.place(header, column)}, {quote(text)}"
+            strangers.append(LocatedError(place, unknown("quantity-unknown", of[0], asked.names)))
     if warn is not None:
         for error in strangers:
             warn(error)

@@ -21,7 +21,7 @@ from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
 from ...scales.errors import InputError, Option, PositionError
-from ...scales.names import all_known, names_of, of_kind
+from ...scales.names import all_known, names_of, of_its_kinds, of_kind
 from ...scales.units import parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed
@@ -60,12 +60,13 @@ class Sweep(Swept):
         positions: int | None,
         points: str | Iterable[str] | None,
         ends: tuple[str | float | None, str | float | None],
-        chords: str | None,
+        chords: str | int | None,
     ) -> Sweep:
         """Solve a linkage over its whole cycle; refuse unknown points, no places, an end where a crank goes round."""
         mechanism = case.task.mechanism
-        chosen = names_of("points", points, (str, int))
-        all_known("motion-unknown", chosen, (*_letters(mechanism), *(str(link.number) for link in mechanism.links)))
+        chosen, compared = names_of("points", points, (str, int)), None if chords is None else str(chords)
+        asked = chosen if compared is None else (*chosen, compared)
+        all_known("motion-unknown", asked, (*_letters(mechanism), *(str(link.number) for link in mechanism.links)))
         first, last = (_place(case.task, *item) for item in zip(("start", "end"), ends, strict=True))
         if last is not None and isinstance(mechanism.driver, Driver):
             raise InputError("sweep-end")
@@ -73,7 +74,7 @@ class Sweep(Swept):
         plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
         count = POSITIONS if positions is None else positions
         return cls(
-            case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, chords, (first, last)
+            case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, compared, (first, last)
         )
 
     @property
@@ -92,6 +93,7 @@ class Sweep(Swept):
         """Why no position at all can be assembled, or None."""
         return None if self.cycle.reach.stretches else self.case.solved.error()
 
+    @of_its_kinds()
     def diagrams(self, of: str | int, sections: int = SECTIONS) -> Diagrams:
         """Return travel, velocity and acceleration of a point or a link, by plans and by chords.
 
@@ -102,7 +104,7 @@ class Sweep(Swept):
         sections : int
             Sections of the cycle for the chords.
         """
-        return diagrams(self.cycle, str(of), positions_of("sections", sections))
+        return diagrams(self.cycle, str(of), positions_of(sections))
 
     def table(self, language: str | None = None) -> str:
         """Return the main columns position by position, then dead positions, strokes, extremes and what has no plan.

@@ -14,11 +14,12 @@ from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.solved import Columned, Course, Ends
 from ...scales.errors import InputError, Option
+from ...scales.names import of_its_kinds
 from ...scales.numbers import quote
 from ...scales.units import SHOWN, unit
 from ..case import Request, Settings, Wanted, positions_of
 from ..reader import load_task
-from ..sheets import titled
+from ..sheets import BLOCK
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import AnyTask
 
@@ -153,9 +154,10 @@ def _filled(value: Any, words: Words) -> Any:
     return f"{words.short(unit('mm').from_si(number), DIGITS)} {words.spelled('mm')}"
 
 
+@of_its_kinds(*BLOCK)
 def sweep(
     task: AnyTask,
-    variant: str | None = None,
+    variant: str | int | None = None,
     *,
     set: Settings | None = None,
     only: Wanted = None,
@@ -164,7 +166,7 @@ def sweep(
     points: Wanted = None,
     start: str | float | None = None,
     end: str | float | None = None,
-    chords: str | None = None,
+    chords: str | int | None = None,
     notation: str | None = None,
     lang: str | None = None,
     **block: str,
@@ -186,7 +188,7 @@ def sweep(
         begins where the working stroke begins, if the task names its output, otherwise at zero.
     end : str or number, optional
         Where a sliding driver stops; without `start` and `end` it moves as far as the links let it.
-    chords : str, optional
+    chords : str or int, optional
         A point's letter, or the number of a link: the table shows its motion by plans and by chords.
     **block : str
         `student`, `group` and so on for the title block of the drawing, as for `sheet`.
@@ -208,9 +210,9 @@ def sweep(
     0.1
     """
     if positions is not None:
-        positions_of("positions", positions)
+        positions_of(positions)
     language = "en" if lang is None else lang
-    case = Request(load_task(task), variant, set, only, scales, notation, language, block=titled(block)).case()
+    case = Request(load_task(task), variant, set, only, scales, notation, language, block=block).case()
     course = case.kind.course(case.solved)
     if course is None:
         from .linkage import Sweep  # brings its drawings
