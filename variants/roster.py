@@ -90,19 +90,19 @@ class Roster:
                 found.setdefault((key, _folded(getattr(entry.who, key))), []).append(entry)
         return found
 
-    def find(self, who: Who) -> Entry | None:
-        """Return the entry of a student: by number, record book, e-mail or name, whichever is there first."""
+    def find(self, who: Who, variant: str = "") -> Entry | None:
+        """Return the entry of a student: by number, record book, e-mail or name, whichever is there first.
+
+        Of several the one of the same group, then of the same variant, is meant.
+        """
         for key in KEYS:
             said = _folded(getattr(who, key))
             found = self._by_key.get((key, said), []) if said else []
-            if len(found) == 1:
-                return found[0]
+            grouped = [entry for entry in found if _folded(entry.who.group) == _folded(who.group)] or found
+            for several in (found, grouped, [entry for entry in grouped if variant and entry.variant == variant]):
+                if len(several) == 1:
+                    return several[0]
         return None
-
-    def missing(self, there: Iterable[Who]) -> list[Entry]:
-        """Return those who are not there."""
-        found = {id(entry) for who in there if (entry := self.find(who)) is not None}
-        return [entry for entry in self.entries if id(entry) not in found]
 
 
 def shared_by_mistake(students: Iterable[tuple[Who, object]], possible: int) -> Iterator[InputError]:

@@ -373,6 +373,16 @@ def test_a_roster_finds_who_is_named_once_by_the_surest_key() -> None:
     assert find(Who()) is None
 
 
+def test_namesakes_are_told_apart_by_group_and_by_variant(tmp_path: Path) -> None:
+    of = [["Lee Kim", "M-1", "1"], ["Lee Kim", "M-2", "2"], ["Smith John", "M-1", "3"], ["Smith John", "M-1", "4"]]
+    roster = write(tmp_path, [["student", "group", "variant"], *of], name="roster")
+    asked = check(TASK, roster=roster)
+
+    entries = [asked.entry_of(one) for one in asked.read(str(asked.write_form(tmp_path / "form.csv")))]
+
+    assert [[entry.who.student, entry.who.group, entry.variant] for entry in entries if entry] == of
+
+
 def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -129,7 +129,8 @@ class Check(Terms):
 
     def absent(self, answers: Iterable[Answers]) -> list[Entry]:
         """Return the students of the roster who have handed in nothing."""
-        return self.roster.missing(one.who for one in answers) if self.roster else []
+        found = {id(self.entry_of(one)) for one in answers}
+        return [entry for entry in self.roster.entries if id(entry) not in found] if self.roster else []
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
@@ -159,7 +160,7 @@ class Check(Terms):
         language = self.request.language
 
         def place(one: Answers) -> tuple[int, object, str]:
-            entry = self.roster.find(one.who) if self.roster else None
+            entry = self.entry_of(one)
             return places.get(id(entry), len(places)), collated(one.who.student, language), one.source
 
         return sorted(answers, key=place)
@@ -170,7 +171,7 @@ class Check(Terms):
             return [*results]
         found, strangers = dict[int, list[Result | Entry]](), list[Result | Entry]()
         for one, result in zip(answers, results, strict=True):
-            entry = self.roster.find(one.who)
+            entry = self.entry_of(one)
             (strangers if entry is None else found.setdefault(id(entry), [])).append(result)
         absent = {id(one): replace(one, variant=self._variant_of(one)) for one in self.roster.entries}
         lines = (found.get(one, [entry]) for one, entry in absent.items())
@@ -313,8 +314,7 @@ class Job:
         asked = (request.variant, request.settings, request.only, request.scales, request.notation)
         parts = (__version__, request.task.text, *asked)
         own = (request.language, request.format, terms.rubric, terms.digits, terms.own, tuple(REPORTS))
-        whole, roster = digest_of(repr((parts, own))), terms.roster
-        told = ((one, roster.find(one.who) if roster else None) for one in answers)
+        whole, told = digest_of(repr((parts, own))), ((one, terms.entry_of(one)) for one in answers)
         return [digest_of(f"{whole} {number} {one.digest} {entry!r}") for number, (one, entry) in enumerate(told)]
 
 
@@ -372,7 +372,7 @@ def _each_marked(
 def _variant(terms: Terms, answers: Answers) -> str:
     """Return the variant of a student: those of one go to one process, one after the other, and share its key."""
     try:
-        return variant_of(terms, answers, terms.roster.find(answers.who) if terms.roster else None)[0]
+        return variant_of(terms, answers, terms.entry_of(answers))[0]
     except KulmanError:
         return ""
 
@@ -380,8 +380,7 @@ def _variant(terms: Terms, answers: Answers) -> str:
 def _mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
     if not (answers.lines or answers.problems or answers.unread or answers.drawn or answers.photos):
-        entry = job.terms.roster.find(answers.who) if job.terms.roster else None
-        return nothing(answers, entry, _variant(job.terms, answers))
+        return nothing(answers, job.terms.entry_of(answers), _variant(job.terms, answers))
     try:
         report, result = reported(desk, answers)
     except KulmanError as error:

@@ -49,6 +49,10 @@ class Terms:
     digits: int | str = 1
     own: bool = False
 
+    def entry_of(self, answers: Answers) -> Entry | None:
+        """Return the place of a student in the roster, if there is one."""
+        return self.roster.find(answers.who, answers.about.get("variant", "")) if self.roster else None
+
 
 @dataclass(frozen=True, slots=True)
 class Misfit:
@@ -247,7 +251,7 @@ class Desk:
         InputError, PositionError
             The student's variant or data have no answer key.
         """
-        entry = self.terms.roster.find(answers.who) if self.terms.roster else None
+        entry = self.terms.entry_of(answers)
         variant, notes = variant_of(self.terms, answers, entry)
         only, told = _plans_of(self.terms, answers)
         key, notes = self.keyed(variant, entry.settings if entry else {}, only=only), notes + told

@@ -167,7 +167,7 @@ def page_of(photo: Photo) -> str:
 
 def _called(answers: Answers, roster: Roster | None) -> str:
     """Return the place in the roster of a student, where there is one."""
-    entry = roster.find(answers.who) if roster is not None else None
+    entry = None if roster is None else roster.find(answers.who, answers.about.get("variant", ""))
     return "" if entry is None else entry.place
 
 
