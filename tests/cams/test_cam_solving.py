@@ -26,7 +26,6 @@ from kulman.tests.support.cam_points import MU_D2S, MU_DS, MU_S, MU_S_D2S, MU_S_
 from kulman.tests.support.cams import ROCKER
 from kulman.tests.support.printed_numbers import lines_of
 from kulman.tests.support.readback import read
-from kulman.variants.marking.report import to_json
 from kulman.variants.sheets import Sheet
 from kulman.variants.solution import Solution
 from kulman.variants.sweeps.sweeps import CourseSweep
@@ -291,7 +290,7 @@ def test_what_is_drawn_on_a_small_sheet_is_marked_by_it(tmp_path: Path, small: S
     for format, verdicts in ((None, ["wrong", "carried"]), ("A3", ["right", "right"])):
         asked = check(TASK, "17", lang="en", format=format, only="diagrams")
         (found,) = asked.read(str(answers))
-        lines = to_json(asked.mark(found))["lines"]
+        lines = asked.mark(found).to_json()["lines"]
         assert [line["verdict"] for line in lines if line["quantity"] in ("S_max_chord", "mu_s")] == verdicts
 
 

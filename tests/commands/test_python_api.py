@@ -386,3 +386,15 @@ def test_what_was_set_far_from_all_variants_is_warned_of() -> None:
 
     assert "l_OA: 0.04 mm is far from what the variants of the task have, from 25 to 50 mm" in str(warning)
     assert solve(TASK, "3", set={"l_OA": "4 cm", "phi": 1.3}, only="position").warnings == ()
+
+
+def test_a_report_has_its_mark_and_is_text_or_files(tmp_path: Path) -> None:
+    report = kulman.check(TASK, "3", lang="en").mark({"V_B": 5.62, "omega_2": "99 rad/s"})
+
+    assert report.text().startswith("Slider-crank: kinematic and force analysis\n")
+    assert 0.0 < report.mark == report.to_json()["mark"] < 10.0
+    page, text = report.save(tmp_path / "report.html", tmp_path / "report.txt")
+    assert text.read_text("utf-8") == report.text()
+    assert page.read_text("utf-8").startswith("<!DOCTYPE html>")
+    with pytest.raises(KulmanError, match="a marked drawing can be written only for one drawing of one student"):
+        report.save(tmp_path / "report.pdf")

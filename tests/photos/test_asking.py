@@ -17,7 +17,6 @@ from kulman.tests.photos.stacks import TASK, Stack
 from kulman.variants.marking.checks import Check, reported
 from kulman.variants.marking.marked import Desk
 from kulman.variants.marking.reading import Answers, stem_of
-from kulman.variants.marking.report import report_files
 from kulman.variants.photos.asking import OUT, EndAsk, Told, ends_asked, gathered, page_of
 from kulman.variants.photos.pictures import Photo
 from kulman.variants.roster import Entry, Roster, Who
@@ -108,7 +107,7 @@ def test_a_sheet_that_is_returned_shows_what_has_been_told(stack: Stack, settled
     truth = stack.truth[answers.who.student][asks[0].name]
     told = replace(answers, told={asks[0].name: (truth.tail, truth.tip)})
 
-    pages = [next(iter(report_files(reported(desk, one)[0], Path("x.png"))))[1] for one in (answers, told)]
+    pages = [next(iter(reported(desk, one)[0].files(Path("x.png"))))[1] for one in (answers, told)]
 
     assert pages[0] != pages[1]
     assert desk.mark(told).seen is not None

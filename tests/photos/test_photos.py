@@ -50,7 +50,7 @@ from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.marked import surely
 from kulman.variants.marking.reading import Answers
-from kulman.variants.marking.report import Report, report_files
+from kulman.variants.marking.report import Report
 from kulman.variants.marking.result import Result, result_of
 from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import _times, lines_of, matched
@@ -271,7 +271,7 @@ def test_a_vector_is_wrong_only_beyond_what_hand_and_reading_may_miss(
 
 
 def test_marked_sheets_are_returned(honest: tuple[Report, dict[str, Truth]]) -> None:
-    (_, png), (_, pdf) = (next(iter(report_files(honest[0], Path(f"marked{kind}")))) for kind in (".png", ".pdf"))
+    (_, png), (_, pdf) = (next(iter(honest[0].files(Path(f"marked{kind}")))) for kind in (".png", ".pdf"))
 
     with Image.open(io.BytesIO(png)) as picture:
         assert picture.width == 2100

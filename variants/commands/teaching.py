@@ -215,11 +215,10 @@ def _mark(
     asked: Check, found: list[Answers], files: tuple[Path, ...], folder: str | None, moodle: Path | None, **how: Any
 ) -> None:
     """Mark one student, or a class: to files, and to the console."""
-    from ...drawing.writers import save_all
     from ..drawings.files import SUFFIXES as DRAWINGS
     from ..marking.checks import write_tables
     from ..marking.class_page import PAGE
-    from ..marking.report import PHOTOS, REPORTS, report_files, report_text, to_json
+    from ..marking.report import PHOTOS, REPORTS
     from ..marking.result import class_lines
 
     reports = [file for file in files if file.suffix.lower() in (*REPORTS, *DRAWINGS, *PHOTOS)]
@@ -234,10 +233,10 @@ def _mark(
     if alone:
         told = asked.mark(found[0])
         if how["as_json"]:
-            console.print_json(to_json(told))
+            console.print_json(told.to_json())
         elif not files:
-            click.echo(report_text(told), nl=False)
-        save_all(files, (*REPORTS, *DRAWINGS, *PHOTOS), lambda file: report_files(told, file))
+            click.echo(told.text(), nl=False)
+        told.save(*files)
     else:
         found = asked.ordered(found)
         with console.progress() as advance:

@@ -224,10 +224,15 @@ def all_variants(
     ----------
     variant : str or iterable of str, optional
         Those wanted, `"3,5"`; all without it.
-    make, ranges, seed
-        How many new variants are made, up to 1000, and from what, as for `make_variants`.
+    make : int, optional
+        How many new variants are made, up to 1000, each a good exercise.
+    ranges : mapping, optional
+        From what they are made: from, to and a step, `{"l_OA": "25..60/5 mm"}`; of other givens from what the task's
+        variants span.
+    seed : int, optional
+        The same one gives the same variants.
     table : str or PathLike, optional
-        A spreadsheet from which new variants are read, as by `import_variants`.
+        A spreadsheet from which new variants are read.
     task, set, only, scales, notation, lang
         As for `solve`.
     quantities : str or iterable of str, optional
@@ -240,7 +245,7 @@ def all_variants(
     Raises
     ------
     InputError
-        As for `solve`, `make_variants`, `import_variants`, or an unknown variant or quantity; or no variant has a
+        As for `solve`; an unknown variant or quantity, a range or a table that cannot be read; or no variant has a
         solution: then why the first has none.
     """
     if make is not None and table is not None:

@@ -33,7 +33,7 @@ from .class_page import PAGE, ClassPage
 from .keyed import PLANS, asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, answers_of, read_all, stem_of
-from .report import REPORTS, Report, report_files
+from .report import REPORTS, Report
 from .result import Result, class_rows, failed, moodle_rows, nothing, result_of
 from .wording import texts
 
@@ -273,7 +273,7 @@ def check(
 
     >>> from kulman import check
     >>> asked = check("nau-slider-crank", "example", lang="en")
-    >>> [asked.mark(answers).marked.mark for answers in asked.read("printed")]
+    >>> [asked.mark(answers).mark for answers in asked.read("printed")]
     [80.9]
     """
     of = load_task(task)
@@ -390,7 +390,7 @@ def _mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
     kinds = (*REPORTS, RETURNED) if answers.photos else tuple(REPORTS)
     for kind in kinds:
-        for path, data in report_files(report, Path(job.folder) / f"{stem}{kind}"):
+        for path, data in report.files(Path(job.folder) / f"{stem}{kind}"):
             write_whole(path, data)
     return replace(result, reports=tuple(f"{stem}{kind}" for kind in kinds))
 

@@ -18,16 +18,18 @@ from ...plans.marking.key import behind
 from ...plans.mistakes.explaining import ANGLED
 from ...plans.mistakes.rules import Broken
 from ...plans.names import role
-from ...scales.errors import spoken
+from ...scales.errors import InputError, spoken
+from ...scales.numbers import SHOWN, quote
 from ..drawings.files import SUFFIXES as DRAWINGS
 from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
-from ..tables import aligned
+from ..tables import Saved, aligned
 from .figures import plan_figures
 from .keyed import Rubric, is_arm_of_lever
 from .marked import Marked, Misfit
 from .wording import letter, mistake_texts, plain, script_runs, texts
 
+PHOTOS = (".png", ".pdf")  # of photographs that are returned with verdicts
 DIGITS, SCALE_DIGITS = 4, 3
 ROUNDING, TOLD = 1e-9, 0.2  # parts of a tolerance: what is nothing, and what is worth telling
 SHOWN_CANDIDATES = 3
@@ -53,13 +55,14 @@ class _Row(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Report:
-    """What is said of one student's answers.
+class Report(Saved):
+    """What is said of one student's answers; `save` writes `.html`, `.txt`, of a drawing or photographs that, too.
 
     `own` tells a student's report, in which nothing stands that would tell right numbers, from a teacher's; `checks` is
     what a teacher should check.
     """
 
+    suffixes = (".html", ".txt", *DRAWINGS, ".png")
     marked: Marked
     rubric: Rubric
     language: str
@@ -68,11 +71,64 @@ class Report:
 
     def __repr__(self) -> str:
         """Return whose report it is, and the mark."""
-        return f"<Report {self.marked.answers.source}: {self.marked.mark:g}>"
+        return f"<Report {self.marked.answers.source}: {self.mark:g}>"
 
     def _repr_html_(self) -> str:
         """Show the report in a notebook."""
         return report_html(self)
+
+    @property
+    def mark(self) -> float:
+        """The mark, out of `rubric.out_of`."""
+        return self.marked.mark
+
+    def text(self) -> str:
+        """Return the report as text, as the console shows it."""
+        return report_text(self)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman check --json` prints of one student; a student's own has no right numbers."""
+        marked, key = self.marked, self.marked.keyed
+        rows = {row.line.name: row for _, rows in self.parts for row in rows}
+        found: dict[str, Any] = {
+            "task": key.solution.task.id,
+            "variant": key.solution.variant,
+            "sheet": key.sheet,
+            "mark": marked.mark,
+            "out_of": self.rubric.out_of,
+            "first_wrong": marked.marking.first_wrong,
+            "counts": {str(verdict): marked.count(verdict) for verdict in Verdict},
+            "notes": [*self.lists["notes"]],
+            "lines": [_line(rows[line.name], self.own) for line in marked.lines],
+        }
+        if not self.own:
+            found["mistakes"] = [
+                {
+                    "mistakes": [{"id": broken.mistake, "at": broken.at} for broken in candidate.mistakes],
+                    "same": sorted(candidate.ids - {broken.mistake for broken in candidate.mistakes}),
+                    "explained": list(candidate.explained),
+                }
+                for candidate in marked.candidates
+            ]
+        return found
+
+    def files(self, path: Path) -> Files:
+        """Return the file of a report, or of the drawing with verdicts over it."""
+        suffix, answers = path.suffix.lower(), self.marked.answers
+        if self.marked.sheets is not None and suffix in PHOTOS:
+            from ..photos.returned import photo_files
+
+            return photo_files(self.marked, self.language, self.own, path)
+        if suffix in REPORTS:
+            return [(path, REPORTS[suffix](self).encode("utf-8", "replace"))]  # bytes in a name of a file
+        if answers.drawn is None or suffix not in DRAWINGS:
+            raise InputError("drawing-alone", file=quote(path, SHOWN))
+        from .overlay import marked_files
+
+        return marked_files(self.marked, self.language, self.own, path)
+
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        return self.files(path)
 
     @property
     def said(self) -> dict[str, str]:
@@ -362,33 +418,6 @@ def scripts(text: str) -> str:
     return "".join(f"<{tag}>{run}</{tag}>" if tag else run for run, tag in runs)
 
 
-def to_json(report: Report) -> dict[str, Any]:
-    """Return what `kulman check --json` prints of one student; a student's own has no right numbers."""
-    marked, key = report.marked, report.marked.keyed
-    rows = {row.line.name: row for _, rows in report.parts for row in rows}
-    found: dict[str, Any] = {
-        "task": key.solution.task.id,
-        "variant": key.solution.variant,
-        "sheet": key.sheet,
-        "mark": marked.mark,
-        "out_of": report.rubric.out_of,
-        "first_wrong": marked.marking.first_wrong,
-        "counts": {str(verdict): marked.count(verdict) for verdict in Verdict},
-        "notes": [*report.lists["notes"]],
-        "lines": [_line(rows[line.name], report.own) for line in marked.lines],
-    }
-    if not report.own:
-        found["mistakes"] = [
-            {
-                "mistakes": [{"id": broken.mistake, "at": broken.at} for broken in candidate.mistakes],
-                "same": sorted(candidate.ids - {broken.mistake for broken in candidate.mistakes}),
-                "explained": list(candidate.explained),
-            }
-            for candidate in marked.candidates
-        ]
-    return found
-
-
 def _line(row: _Row, own: bool) -> dict[str, Any]:
     """Return one line as plain data, answer and right value also as they are shown."""
     line, right = row.line, row.line.right
@@ -401,23 +430,4 @@ def _line(row: _Row, own: bool) -> dict[str, Any]:
 
 
 REPORTS: Mapping[str, Callable[[Report], str]] = {".html": report_html, ".txt": report_text}
-PHOTOS = (".png", ".pdf")  # of photographs that are returned with verdicts
 SUFFIXES = (*REPORTS, *TABLES, *DRAWINGS, ".png")  # of all that marks can be written to
-
-
-def _report_bytes(report: Report, suffix: str) -> bytes:
-    """Return what a file of a report holds."""
-    return REPORTS[suffix.lower()](report).encode("utf-8", "replace")  # bytes in a name of a file
-
-
-def report_files(report: Report, path: Path) -> Files:
-    """Return the file of a report, or of the drawing with verdicts over it."""
-    if report.marked.sheets is not None and path.suffix.lower() in PHOTOS:
-        from ..photos.returned import photo_files
-
-        return photo_files(report.marked, report.language, report.own, path)
-    if path.suffix.lower() in DRAWINGS:
-        from .overlay import marked_files
-
-        return marked_files(report.marked, report.language, report.own, path)
-    return [(path, _report_bytes(report, path.suffix))]

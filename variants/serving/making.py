@@ -34,7 +34,7 @@ from ..marking.keyed import COLUMNS
 from ..marking.marked import Desk, Terms
 from ..marking.reading import SUFFIXES as ANSWERS
 from ..marking.reading import Answers
-from ..marking.report import PHOTOS, report_files, report_html
+from ..marking.report import PHOTOS, report_html
 from ..marking.result import class_lines
 from ..notes import Note, note
 from ..photos.asking import Asking, EndAsk, PageAsk, Told, ends_asked, gathered
@@ -398,7 +398,7 @@ def answered_by_files(advance: Advance, handed: Handed, told: Told) -> tuple[str
     report, returned = reported(desk, answers)[0], list[bytes]()
     if answers.photos:
         for kind in sorted(PHOTOS):
-            files = [*report_files(report, Path(f"marked{kind}"))]
+            files = [*report.files(Path(f"marked{kind}"))]
             for path, data in files:
                 path.write_bytes(data)
             paths = [path for path, _ in files]
