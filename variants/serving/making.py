@@ -9,7 +9,6 @@ import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +35,7 @@ from ..marking.reading import SUFFIXES as ANSWERS
 from ..marking.reading import Answers
 from ..marking.report import PHOTOS, report_html
 from ..marking.result import class_lines
-from ..notes import Note, note
+from ..notes import note
 from ..photos.asking import Asking, EndAsk, PageAsk, Told, ends_asked, gathered
 from ..photos.pictures import PICTURES
 from ..photos.returned import stacked
@@ -44,7 +43,7 @@ from ..reader import check_file, load_task
 from ..roster import read_roster
 from ..sheets import BESIDE, BLOCK, Sheet, draw_case, handout, sheet
 from ..shelf import bundled
-from ..solution import Solution, solve
+from ..solution import solve
 from ..spreadsheets.files import read_grid
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table
@@ -170,49 +169,32 @@ def _handout(asked: Asked, **how: Any) -> Sheet:
     return handout(task, **_request(asked, task, *HOW, *BLOCK), **how)
 
 
-def _note(asked: Asked) -> Note:
-    task = asked.load()
-    return note(task, **_request(asked, task, *LETTERS, "student", "group", "teacher", "department", "date"))
-
-
-def _solution(asked: Asked) -> Solution:
-    task = asked.load()
-    return solve(task, **_request(asked, task, *LETTERS))
-
-
-@dataclass(frozen=True, slots=True)
-class _Form:
-    check: Check
-
-    def save(self, name: str) -> list[Path]:
-        return [self.check.write_form(name)]
-
-
-@dataclass(frozen=True, slots=True)
-class _Roster:
-    task: Task
-    language: str
-
-    def save(self, name: str) -> list[Path]:
-        return [write_roster(self.task, name, self.language)]
-
-
 def _check(asked: Asked, **more: Any) -> Check:
     task = asked.load()
     return check(task, **_request(asked, task, *LETTERS), **more)
 
 
-# what can be downloaded, by the stem of its name
-SAVED: Mapping[str, Callable[[Asked], Any]] = {
-    "sheet": _sheet,
-    "moving": _sheet,
-    "handout": _handout,
-    "scan": partial(_handout, scan=True),
-    "key": partial(_handout, key=True),
+def _note(asked: Asked, name: str) -> list[Path]:
+    task = asked.load()
+    titled = "student", "group", "teacher", "department", "date"
+    return note(task, **_request(asked, task, *LETTERS, *titled)).save(name)
+
+
+def _results(asked: Asked, name: str) -> list[Path]:
+    task = asked.load()
+    return solve(task, **_request(asked, task, *LETTERS)).save(name)
+
+
+# what can be downloaded, by the stem of its name: saved under a name
+SAVED: Mapping[str, Callable[[Asked, str], list[Path]]] = {
+    **dict.fromkeys(("sheet", "moving"), lambda asked, name: _sheet(asked).save(name)),
+    "handout": lambda asked, name: _handout(asked).save(name),
+    "scan": lambda asked, name: _handout(asked, scan=True).save(name),
+    "key": lambda asked, name: _handout(asked, key=True).save(name),
     "note": _note,
-    "results": _solution,
-    "form": lambda asked: _Form(_check(asked)),
-    "roster": lambda asked: _Roster(asked.load(), asked.language),
+    "results": _results,
+    "form": lambda asked, name: [_check(asked).write_form(name)],
+    "roster": lambda asked, name: [write_roster(asked.load(), name, asked.language)],
 }
 KINDS: Mapping[str, tuple[str, ...]] = {
     "sheet": DRAWN,
@@ -229,7 +211,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
 
 def made(advance: Advance, asked: Asked, stem: str, suffix: str) -> tuple[str, bytes]:
     """Return a file of what is asked, with its name; several are one archive."""
-    files = SAVED[stem](asked).save(f"{stem}{suffix}")
+    files = SAVED[stem](asked, f"{stem}{suffix}")
     if len(files) == 1:
         return files[0].name, files[0].read_bytes()
     return f"{stem}{ZIP}", _zipped(files, Path(f"{stem}{ZIP}")).read_bytes()
