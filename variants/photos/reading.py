@@ -44,7 +44,6 @@ from .traced import HIDES, Pencil, ends_at
 
 APART = 1000.0  # mm between pages of a drawing
 INKED = 200  # of 255: what is darker is print
-SLACK = 6.0  # mm that plans may go beyond the frame, and the boxes in it
 POLE = 4.0  # mm from the printed pole within which a plan begins
 COVERED = 0.85  # part of a vector along which the pencil must be seen
 SHORT = 5.0  # mm of a vector that is read at the least

@@ -12,7 +12,7 @@ import signal
 import socket
 import sys
 import webbrowser
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -58,7 +58,6 @@ STATIC = ("web.css", "web.js", "icon.svg")
 OWN = "own-"  # begins the names of task files of users in addresses
 PICTURE = "default-src 'none'; style-src 'unsafe-inline'; font-src data:; img-src data:; sandbox"
 _INLINE = re.compile(r"<(style|script)>(.*?)</\1>", re.DOTALL)
-Answer = Callable[[Request], Awaitable[Response]]
 
 
 def _policy(document: str) -> str:

@@ -30,7 +30,6 @@ from ..sheets import Sheet, sheet_of, stamp_of
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import LocatedError, Task, plain_number
 
-Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
 DRAWN = 36  # positions in a drawing: its letters take time as the square of their number, and stand on one another
 DIGITS = 6  # of a number in the table
