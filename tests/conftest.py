@@ -128,4 +128,4 @@ def stack(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """A small stack of photographed sheets, see `tests/photos/stacks.py`."""
     from kulman.tests.photos.stacks import SMALL, stack_of
 
-    return stack_of(tmp_path_factory.mktemp("stack"), SMALL)
+    return of_all_workers("stack", lambda: stack_of(tmp_path_factory.mktemp("stack"), SMALL))

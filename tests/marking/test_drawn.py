@@ -173,7 +173,7 @@ def planted(sheet: Bare, wrong: Signature, seed: int = 4) -> tuple[frozenset[str
     pytest.param("scheme-18-hydraulic-drive", "M38", id="force plan of a few millimetres"),
     pytest.param("scheme-11-slotter", "M48", id="force plans that differ by their size alone"),
     pytest.param("scheme-14-jaw-crusher", "M30", id="one vector of a plan"),
-], 0, 3))  # fmt: skip
+], 0))  # fmt: skip
 def test_a_mistake_is_named_first_of_a_drawing(task: str, mistake: str) -> None:
     sheet = bare(task)
     wrong = next(one for one in sheet.book.signatures if one.broken.mistake == mistake)

@@ -209,7 +209,7 @@ def short_of(sheet: Sheet) -> list[str]:
     [
         ("karpenko-hoist", "V05"),
         ("scheme-03-crank-rocker", "0"),
-        ("scheme-16-hay-baler", "6"),
+        pytest.param("scheme-16-hay-baler", "6", marks=pytest.mark.soak),
         *(pytest.param("scheme-19-scotch-yoke", v, marks=pytest.mark.soak) for v in ("1", "3")),
         *(pytest.param("karpenko-hoist", v, marks=pytest.mark.soak) for v in ("V01", "V03")),
     ],

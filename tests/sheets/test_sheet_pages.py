@@ -240,7 +240,9 @@ def test_a_sheet_has_the_scale_factors_that_are_solved_for(task: str, variant: s
     assert same_scales(kulman.solve(task, variant), kulman.sheet(task, variant))
 
 
-@pytest.mark.parametrize(("task", "variant"), [("scheme-01-compressor", "3"), ("scheme-02-forging-press", "1")])
+@pytest.mark.parametrize(
+    ("task", "variant"), some([("scheme-01-compressor", "3"), ("scheme-02-forging-press", "1")], 1)
+)
 def test_headings_side_by_side_do_not_read_as_one_line(task: str, variant: str) -> None:
     drawn = kulman.sheet(task, variant)
     (page,) = read(drawn.svg()).pages
