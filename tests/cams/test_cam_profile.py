@@ -31,7 +31,7 @@ from kulman.tests.support.cases import some
 TURN = 2.0 * math.pi
 MM = 1e-3
 
-COUNTS = pytest.mark.parametrize("count", [pytest.param(2, id="2"), pytest.param(60, id="60", marks=pytest.mark.soak)])
+COUNTS = pytest.mark.parametrize("count", [pytest.param(2, id="2"), pytest.param(30, id="30", marks=pytest.mark.soak)])
 
 
 def traced(profile: RollerProfile | PlateProfile, phi: float, cells: int = 720) -> float:
@@ -275,7 +275,7 @@ def left_by_the_cutter(profile: RollerProfile) -> float:
     return apart / float(cam.area)
 
 
-@pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(150, id="150", marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(60, id="60", marks=pytest.mark.soak)])
 def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
     random = np.random.default_rng(SEED + 14)
 
@@ -339,7 +339,7 @@ def test_plate_that_is_too_low_cuts_its_own_profile(r_0: float, sense: int) -> N
     assert Polygon(np.column_stack((points.real, points.imag))).area == pytest.approx(cam.area, rel=1e-4)
 
 
-@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(40, id="40", marks=pytest.mark.soak)])
 def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> None:
     random = np.random.default_rng(SEED + 13)
 

@@ -337,7 +337,7 @@ def random_cams(count: int) -> list[tuple[Cam, dict[str, float]]]:
     return cams
 
 
-MANY = pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)])
+MANY = pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(40, id="40", marks=pytest.mark.soak)])
 
 
 @MANY

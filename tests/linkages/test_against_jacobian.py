@@ -333,7 +333,7 @@ def test_couples_of_a_link_are_summed_under_its_number(both: Both) -> None:
 
 def test_many_at_once_equal_one_at_a_time_to_the_last_bit(both: Both) -> None:
     names, count = both.program.names, len(both.codes)
-    for index in range(0, count, max(1, count // (3 if count < 100 else 60))):
+    for index in range(0, count, max(1, count // (3 if count < 100 else 20))):
         board = run(both.program, board_givens(both.mechanism, one_of(both.values, index), both.program))
         different = [n for n in names if np.asarray(board.values[n]).tobytes() != both.results[n][index].tobytes()]
         assert (index, different) == (index, [])
