@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import wraps
@@ -17,6 +18,12 @@ from .numbers import quote
 
 _CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
 _ALIKE = str.maketrans(_CYRILLIC, _LATIN)
+_GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
+GREEK = {  # letters, as names of quantities spell them
+    ord(sign): found[1].lower().replace("lamda", "lambda")
+    for sign in map(chr, range(0x370, 0x400))
+    if (found := _GREEK.match(unicodedata.name(sign, "")))
+}
 LONGEST = 200  # characters of a list of names in a message
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -47,8 +54,8 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Unkno
     data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
     if text != latin(text) and latin(text).casefold() in map(str.casefold, names):
         return cyrillic(text)
-    plain = text.lstrip("0").casefold().replace("_", "")
-    folded = [name for name in names if plain and name.casefold().replace("_", "") == plain]  # mu_v, VB, 03
+    plain = unicodedata.normalize("NFKC", text.lstrip("0")).translate(GREEK).casefold().replace("_", "")
+    folded = [name for name in names if plain and name.casefold().replace("_", "") == plain]  # mu_v, VB, φ, 03
     if 2 < len(text) < 100 or folded:
         turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
         having = [name for name in names if text.casefold() in name.casefold()]  # scheme-03, crank-rocker

@@ -218,6 +218,14 @@ def test_word_of_an_option_may_have_a_cyrillic_letter_that_looks_like_its_own(fo
     assert wide[0] == 0
 
 
+@pytest.mark.parametrize(("printed", "typed"), [("φ", "phi"), ("J_S₂", "J_S2")])
+def test_setting_as_it_is_printed_is_told_how_it_is_typed(printed: str, typed: str) -> None:
+    with pytest.raises(InputError) as refused:
+        solve("nau-slider-crank", set={printed: "1"})
+
+    assert f"можливо, «{typed}»?" in refused.value.text("uk")
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})

@@ -95,6 +95,7 @@ def test_the_key_of_all_variants_is_a_page_to_print(tmp_path: Path) -> None:
     assert f"<td>{size:.4g}<br><small>{mm:.1f} mm</small></td>" in page
     assert f"<td>{solution.scales['mu_V'].mu:.4g}</td>" in page
     assert f"<td>{(solution['h_2'].value or 0.0) * 1e3:.4g}<br>" in page  # an arm in mm
+    assert "F″<sub>i2</sub>" in page  # F′ = F″, both with their indices
     two = (
         all_variants("nau-slider-crank", make=12, lang="en").save(tmp_path / "made.html")[0].read_text(encoding="utf-8")
     )

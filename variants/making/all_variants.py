@@ -196,7 +196,7 @@ def _symbol(key: Keyed, name: str) -> str:
     """Return the symbol of a quantity, with what tells it from another that has the same."""
     markup, whole = key.words.symbol(name), key.symbol(name)
     found = plain(markup)
-    return f"{html(markup)}{escape(whole.removeprefix(found))}" if whole.startswith(found) else scripts(whole)
+    return f"{html(markup)}{scripts(whole.removeprefix(found))}" if whole.startswith(found) else scripts(whole)
 
 
 @of_its_kinds()

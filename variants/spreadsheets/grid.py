@@ -13,7 +13,7 @@ from itertools import takewhile
 from typing import Any, TypeAlias
 
 from ...scales.errors import InputError, RowOf, Written
-from ...scales.names import latin, seen
+from ...scales.names import GREEK, latin, seen
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 
@@ -48,12 +48,6 @@ _NUMBER_WORDS = frozenset(UNDERSTOOD["number_words"])
 _NUMBERED_KINDS = ("variant", "book", "group")  # of which "№" before or behind the word says no other thing
 MIXED = re.compile(r"[A-Za-z]+_\w+")
 _ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
-_GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
-_LETTERS = {  # of Greek by their names
-    ord(sign): found[1].lower().replace("lamda", "lambda")
-    for sign in map(chr, range(0x370, 0x400))
-    if (found := _GREEK.match(unicodedata.name(sign, "")))
-}
 
 
 def several_groups(text: str) -> str:
@@ -262,7 +256,7 @@ def quantity_part(text: str) -> tuple[str, str, str] | None:
     (('l_CA', 'mm', 'мм'), ('l_CA', '', 'мм'))
     """
     head, unit = split_unit(text)
-    found = _QUANTITY.fullmatch(latin(head).translate(_LETTERS))
+    found = _QUANTITY.fullmatch(latin(head).translate(GREEK))
     if found is None:
         return None
     if not found["part"] and column_kind(unit) == "direction":
@@ -281,7 +275,7 @@ def symbol(text: str) -> str:
     """
     if len(text) > LONGEST_HEAD:
         return ""
-    return latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text))).translate(_LETTERS)
+    return latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text))).translate(GREEK)
 
 
 def variant_said(text: str) -> str:
