@@ -209,14 +209,8 @@ def _character_map(pairs: list[tuple[int, int]]) -> bytes:
 def _name_table(face: str) -> bytes:
     """Return the names a font must carry: family, style, identity, full name, version, PostScript name."""
     family, style = FAMILIES[face], "Italic" if face == SLANTED else "Regular"
-    texts = [
-        family,
-        style,
-        f"{family} {style} subset",
-        f"{family} {style}",
-        "Version 1.0",
-        family.replace(" ", "") + style,
-    ]
+    whole = f"{family} {style}"
+    texts = [family, style, f"{whole} subset", whole, "Version 1.0", family.replace(" ", "") + style]
     records, strings = b"", b""
     for number, text in enumerate(texts, start=1):
         encoded = text.encode("utf-16-be")

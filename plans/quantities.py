@@ -17,21 +17,8 @@ from .board import POINTS, POSITION, Program, Step
 from .boards.exact import ILL
 from .names import LEVER, by_lever, is_shown, role, spelled
 
-UNITS = {
-    "V": "m/s",
-    "a": "m/s^2",
-    "omega": "rad/s",
-    "epsilon": "rad/s^2",
-    "m": "kg",
-    "J": "kg*m^2",
-    "G": "N",
-    "F": "N",
-    "R": "N",
-    "M": "N*m",
-    "h": "m",
-    "l": "m",
-    "delta": "%",
-}
+UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2", "m": "kg", "J": "kg*m^2", "M": "N*m"}
+UNITS |= {**dict.fromkeys("GFR", "N"), **dict.fromkeys("hl", "m"), "delta": "%"}
 M_BAL, F_BAL = spelled("M", "bal"), spelled("F", "bal")
 BALANCES = (M_BAL, by_lever(M_BAL), F_BAL, by_lever(F_BAL))  # what balances the driver: by plans, by the lever
 Of = TypeVar("Of")

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 from ..drawing.compose import Drawn, compose, on_one_page
 from ..drawing.formats import Norm, format_named, printable
@@ -212,11 +212,8 @@ def page_of(case: Case) -> str:
 
     if case.positions is not None:
         raise InputError("handout-apart", first="--positions", second=f"-o *{PAGE}")
-    data, words, code = (
-        case.kind.moving(case, case.words()),
-        case.words(),
-        sheet_id(case.task, case.variant, case.settings),
-    )
+    words, code = case.words(), sheet_id(case.task, case.variant, case.settings)
+    data = case.kind.moving(case, words)
     about = words["moving.about"].format(task=case.task.id, variant=case.variant, code=code)
     return page(data, words, case.task.title[case.language], about)
 
@@ -251,14 +248,10 @@ def said_of(block: Mapping[str, str]) -> dict[str, str]:
 
 def stamp_of(case: Case) -> Stamp:
     """Return what the title block of a case says."""
-    said = dict.fromkeys(BLOCK, "") | said_of(case.block)
+    said: dict[str, Any] = dict.fromkeys(BLOCK, "") | said_of(case.block)
     return Stamp(
-        designation=said["designation"],
+        **{name: said[name] for name in ("designation", "group", "student", "teacher", "date")},
         organisation=said["department"],
-        group=said["group"],
-        student=said["student"],
-        teacher=said["teacher"],
-        date=said["date"],
         title=case.title,
         document_type=said["work"] or case.words()["sheet.document"],
         language=case.language,

@@ -154,9 +154,8 @@ class Solution(OfCase, Mapping[str, Quantity]):
         known |= self.quantities
         listed = (known[name] for name in self.kind.listed(self.solved, self.case.plans) if name in known)
         tidied = []
-        for (
-            q
-        ) in listed:  # what is nothing but rounding beside the largest of the unit, of per cents beside 100, is zero
+        # what is nothing but rounding beside the largest of the unit, of per cents beside 100, is zero
+        for q in listed:
             noise = ROUNDING * (largest.get(q.unit, 0.0) if q.unit != "%" else 100.0)
             value, x, y = (None if part is None else part if abs(part) > noise else 0.0 for part in (q.value, q.x, q.y))
             tidied.append(q if q.kind == "point" else replace(q, value=value, x=x, y=y))

@@ -213,10 +213,8 @@ def _plate_sizes_view(scene: CamScene) -> View:
     _mark_centre(canvas, scene, centre, 1 - 1j)
     for at, name in ((low, "r_0_flat_min"), (centre, "r_0_flat")):
         symbol, (text,) = scene.symbol(name), scene.lettered(name)
-        wide, between = (
-            (lay_out(written, scene.style.text).width for written in (text, symbol)),
-            abs(at) - 2.0 * scene.style.arrow,
-        )
+        wide = (lay_out(written, scene.style.text).width for written in (text, symbol))
+        between = abs(at) - 2.0 * scene.style.arrow
         if next(wide) >= between > next(wide):
             text = symbol  # the number stands with the calculations
         linear(canvas, (at, 0j), complex(OUT[name], 0.0), text, name)

@@ -110,11 +110,8 @@ def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> Itera
 
 def _lines_of_point(scene: Scene, c: Coupler, point: str, turning: str, carrier: str) -> Iterator[Line]:
     """Go through the vectors of a point as they are hung; where its end is closed they give the relative rate."""
-    letter, closing, kind = (
-        c.letters[point],
-        c.closing if point == c.span.end else None,
-        "V" if turning == "omega" else "a",
-    )
+    letter, closing = c.letters[point], c.closing if point == c.span.end else None
+    kind = "V" if turning == "omega" else "a"
     plan, relative = spelled(VELOCITY if kind == "V" else ACCELERATION, letter), rate(turning, c.number, "r")
     normal = closing.normal if closing is not None and kind == "a" else None
     yield _vectors(scene, c, point, kind)

@@ -94,15 +94,10 @@ def begun(scene: Scene, steps: int, plans: Collection[str]) -> dict[str, Shown]:
     while done != before:
         drawn = {view: drawn_by(teller, view, every[view], done[view]) for view in every}
         found = _found(teller, drawn)
-        before, done = (
-            done,
-            {
-                view: next(
-                    (n for n, told in enumerate(every[view][: done[view]]) if told.step.name not in found), done[view]
-                )
-                for view in every
-            },
-        )
+        before, done = done, {}
+        for view, told in every.items():
+            left_out = (n for n, one in enumerate(told[: before[view]]) if one.step.name not in found)
+            done[view] = next(left_out, before[view])
     seen = {view: [name for name, is_drawn in drawn[view].items() if is_drawn] for view in every}
     known = found.union(*seen.values()) - ({*teller.made} - found)
     return {view: _shown(known.intersection(seen[view]), len(every[view]) <= done[view]) for view in every}

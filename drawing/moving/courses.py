@@ -63,17 +63,8 @@ def driven(name: str, symbol: str, ends: tuple[float, float], speed: float, turn
     `turns` tells whether it goes round; `more` are further fields, see `places.js`.
     """
     low, high = ends
-    return {
-        "name": name,
-        "symbol": html(symbol),
-        "turns": turns,
-        "sense": 1,
-        "start": low,
-        "low": low,
-        "high": high,
-        "speed": speed,
-        **more,
-    }
+    head = {"name": name, "symbol": html(symbol), "turns": turns, "sense": 1}
+    return head | {"start": low, "low": low, "high": high, "speed": speed, **more}
 
 
 def moving_course(

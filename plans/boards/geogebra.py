@@ -27,16 +27,13 @@ _LEFT = re.compile(r"\W|_")  # what an index does not hold
 LONGEST = 160  # characters of an expression, where parts of it come again
 SUM, PRODUCT, ATOM = 1, 2, 3  # how strongly an expression holds together
 OPERATORS = {"add": ("+", SUM), "subtract": ("-", SUM), "multiply": ("*", PRODUCT), "divide": ("/", PRODUCT)}
+COMPARISONS = {"less": "<", "less_equal": "<=", "greater": ">", "greater_equal": ">=", "equal": "=="}
 FUNCTIONS = {  # what is true is one, what is not is zero
     "absolute": "abs({0})",
     "sqrt": "sqrt({0})",
     "arctan2": "atan2({0}, {1})",
     "floor_divide": "floor(({0}) / ({1}))",
-    "less": "If[{0} < {1}, 1, 0]",
-    "less_equal": "If[{0} <= {1}, 1, 0]",
-    "greater": "If[{0} > {1}, 1, 0]",
-    "greater_equal": "If[{0} >= {1}, 1, 0]",
-    "equal": "If[{0} == {1}, 1, 0]",
+    **{name: f"If[{{0}} {sign} {{1}}, 1, 0]" for name, sign in COMPARISONS.items()},
     "logical_and": "(({0}) * ({1}))",
     "logical_or": "If[{0} + {1} > 0.5, 1, 0]",
     "where": "If[{0} > 0.5, {1}, {2}]",

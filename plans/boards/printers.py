@@ -22,25 +22,16 @@ from .trace import Calm, Entry, Rare, Trace
 DEEPEST = 12  # brackets within brackets
 Output = tuple[int, bool]  # place of a number, and whether its negative is wanted
 # what one operation is in Python; operands that stand there twice are named before
+SIGNS = {"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "floor_divide": "//", "power": "**"}
+SIGNS |= {"less": "<", "less_equal": "<=", "greater": ">", "greater_equal": ">=", "equal": "=="}
+SIGNS |= {"logical_and": "and", "logical_or": "or"}
 PYTHON = {
-    "add": "({0} + {1})",
-    "subtract": "({0} - {1})",
-    "multiply": "({0} * {1})",
-    "divide": "({0} / {1})",
+    **{name: f"({{0}} {sign} {{1}})" for name, sign in SIGNS.items()},
     "negative": "(-{0})",
     "absolute": "abs({0})",
     "sqrt": "(sqrt({0}) if {0} >= 0.0 else nan)",
     "root": "sqrt({0})",  # of what is a square
-    "less": "({0} < {1})",
-    "less_equal": "({0} <= {1})",
-    "greater": "({0} > {1})",
-    "greater_equal": "({0} >= {1})",
-    "equal": "({0} == {1})",
-    "logical_and": "({0} and {1})",
-    "logical_or": "({0} or {1})",
     "where": "({1} if {0} else {2})",
-    "floor_divide": "({0} // {1})",
-    "power": "({0} ** {1})",
     "fmod": "(fmod({0}, {1}) if isfinite({0}) else nan)",
     "arctan2": "float(arctan2({0}, {1}))",
     "cos": "cos({0})",

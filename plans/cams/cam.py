@@ -13,17 +13,8 @@ from ...scales.givens import Bound, Described, Givens, Parameter, units
 
 ROLLER, PLATE, ROCKER = FOLLOWERS = ("roller", "plate", "rocker")
 LAWS = (
-    "uniform",
-    "constant",
-    "falling",
-    "sawtooth",
-    "cosine",
-    "sine",
-    "trapezoid",
-    "modified-trapezoid",
-    "modified-sine",
-    "polynomial-345",
-    "polynomial-4567",
+    *("uniform", "constant", "falling", "sawtooth", "cosine", "sine", "trapezoid"),
+    *("modified-trapezoid", "modified-sine", "polynomial-345", "polynomial-4567"),
 )
 AS_RISE = "rise"  # the fall has the law of the rise
 MIRROR, SAME = ORDERS = ("mirror", "same")

@@ -246,22 +246,12 @@ class Expectation:
     def as_data(self) -> dict[str, Any]:
         """Return it as the command line's JSON has it, None for what is undefined."""
         spread, mu = self.spread, self.mu or math.nan
-        data = {
-            "low": spread.low,
-            "high": spread.high,
-            "mm": self.mm,
-            "percent": self.percent,
-            "miss": spread.miss,
-            "miss_mm": spread.miss / mu,
-            "degrees": spread.degrees,
-            "step": self.step,
-            "share": self.share,
-            "tolerance": self.allowed,
-            "tolerance_mm": None if self.allowed is None else self.allowed / mu,
-            "tolerance_deg": self.degrees,
-            "failed": self.failed,
-            "undrawn": spread.undrawn,
-        }
+        allowed_mm = None if self.allowed is None else self.allowed / mu
+        data: dict[str, Any] = {"low": spread.low, "high": spread.high, "mm": self.mm, "percent": self.percent}
+        data |= {"miss": spread.miss, "miss_mm": spread.miss / mu, "degrees": spread.degrees}
+        data |= {"step": self.step, "share": self.share}
+        data |= {"tolerance": self.allowed, "tolerance_mm": allowed_mm, "tolerance_deg": self.degrees}
+        data |= {"failed": self.failed, "undrawn": spread.undrawn}
         return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in data.items()}
 
 

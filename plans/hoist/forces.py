@@ -121,18 +121,9 @@ def motion_givens(motion: OneSided) -> dict[str, float]:
     t_1 = motion.t_1
     (t_most, most), (_, least) = motion.extremes(lifted=False)
     (t_top, top), (_, bottom) = motion.extremes(lifted=True)
-    found = {
-        "t_1": t_1,
-        "F_12_t1": motion.force(t_1),
-        "_dF_t1": motion.rate(t_1),
-        "F_12_max": most,
-        "t_F12_max": t_most,
-        "F_12_min": least,
-        "T_1": t_top - t_1,
-        "P_12_max": top,
-        "P_12_min": bottom,
-        "s_min": motion.lowest,
-    }
+    found = {"t_1": t_1, "F_12_t1": motion.force(t_1), "_dF_t1": motion.rate(t_1), "s_min": motion.lowest}
+    found |= {"F_12_max": most, "t_F12_max": t_most, "F_12_min": least}
+    found |= {"T_1": t_top - t_1, "P_12_max": top, "P_12_min": bottom}
     return {motion_given(name): value for name, value in found.items()}
 
 

@@ -130,22 +130,8 @@ SHOWN_ON = {
     **dict.fromkeys(("R", "D_0", "D_1", "P_m"), (CIRCLE,)),
     **{f"{name}_{i}{end}": (plan,) for i, plan in BENT.items() for name, end in (("w", ""), ("w", "_max"))},
 }
-UNITS = {
-    "m": "kg",
-    "alpha": "1",
-    "k": "rad/s",
-    "t": "s",
-    "T": "s",
-    "F": "N",
-    "P": "N",
-    "R": "N",
-    "D": "N",
-    "sigma": "Pa",
-    "safety": "1",
-    "dynamic": "1",
-    "V": "m/s",
-    "phi": "rad",
-}
+UNITS = {"m": "kg", "k": "rad/s", "sigma": "Pa", "V": "m/s", "phi": "rad", **dict.fromkeys("tT", "s")}
+UNITS |= {**dict.fromkeys("FPRD", "N"), **dict.fromkeys(("alpha", "safety", "dynamic"), "1")}
 STIFFNESSES = ("C", "C_01", "C_k", "C_2", "C_12")
 
 

@@ -25,15 +25,10 @@ from .parts import SYMBOLS, Bodies, Body, Couples, Forces, Plan, Polygon, Span, 
 from .structure import KINDS, TRIAD, Structure, analyse
 
 NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
-    "structure": (),
-    "position": (),
-    "dead": ("position",),
-    "velocity": ("position",),
+    **dict.fromkeys(("structure", "position"), ()),
+    **dict.fromkeys(("dead", "velocity"), ("position",)),
     "acceleration": ("velocity",),
-    "compound": ("acceleration",),
-    "forces": ("acceleration",),
-    "lever": ("acceleration",),
-    "cycle": ("acceleration",),
+    **dict.fromkeys(("compound", "forces", "lever", "cycle"), ("acceleration",)),
 }
 PLANS = tuple(NEEDS)
 USUAL = tuple(plan for plan in PLANS if plan not in ("dead", "compound", "cycle"))  # without a word on which are wanted

@@ -34,14 +34,8 @@ ROUNDED = (1.03, 0.97)
 PRINTED = 0.955  # of a sheet that the printer has fitted to its page
 # which operands of a step are lengths, in the laws too
 LENGTHS = {"place": (0, 1), "arc": (1,), "arcs": (1, 3), "tangent": (2,), "divide": (2, 3)}
-IN_LAWS = {
-    "circular_speed": 1,
-    "centripetal": 1,
-    "normal_part": 1,
-    "turning": 2,
-    "moment_equation": 0,
-    "crank_moment": 1,
-}
+IN_LAWS = dict.fromkeys(("circular_speed", "centripetal", "normal_part", "crank_moment"), 1)
+IN_LAWS |= {"turning": 2, "moment_equation": 0}
 
 
 def _given_times(scene: Scene, name: str, factor: float, how: str = "") -> Change:

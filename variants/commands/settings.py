@@ -16,17 +16,8 @@ from ...scales.numbers import SHOWN, quote
 PLACE = "KULMAN_CONFIG"  # names another file; none where it is empty
 NORMS = ("gost", "iso")
 # by key: the parameter of commands that it is the usual value of
-PARAMETERS = {
-    "name": "student",
-    "group": "group",
-    "teacher": "teacher",
-    "department": "department",
-    "work": "work",
-    "language": "lang",
-    "norm": "norm",
-    "notation": "notation",
-    "profile": "profile",
-}
+KEYS = ("name", "group", "teacher", "department", "work", "language", "norm", "notation", "profile")
+PARAMETERS = {key: key for key in KEYS} | {"name": "student", "language": "lang"}
 
 
 def _notations() -> tuple[str, ...]:

@@ -164,11 +164,8 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
     for problem in made.told:
         click.echo(problem, err=True)
-    return (
-        console.refuse(InputError("batch-problems", n=len(bad), file=quote(Path(folder) / MANIFEST, SHOWN)))
-        if bad
-        else 0
-    )
+    listed = quote(Path(folder) / MANIFEST, SHOWN)
+    return console.refuse(InputError("batch-problems", n=len(bad), file=listed)) if bad else 0
 
 
 @console.command(

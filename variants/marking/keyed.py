@@ -34,13 +34,9 @@ from .cells import Asked, value
 from .wording import plain, texts
 
 WORTH = {
-    Verdict.RIGHT: 1.0,
-    Verdict.CARRIED: 1.0,
-    Verdict.ARITHMETIC: 0.5,
-    Verdict.SCALE: 0.5,
-    Verdict.WRONG: 0.0,
-    Verdict.UNCOUNTED: 0.0,
-    Verdict.MISSING: 0.0,
+    **dict.fromkeys((Verdict.RIGHT, Verdict.CARRIED), 1.0),
+    **dict.fromkeys((Verdict.ARITHMETIC, Verdict.SCALE), 0.5),
+    **dict.fromkeys((Verdict.WRONG, Verdict.UNCOUNTED, Verdict.MISSING), 0.0),
 }
 DIRECTIONS = ("optional", "required", "ignored")
 SIZE_ALONE = 0.5  # part of a line's worth where a direction or sense is required and left out

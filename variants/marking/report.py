@@ -203,11 +203,8 @@ class Report(Saved):
 
     def _scale(self, misfit: Misfit) -> str:
         """Return what is wrong with a scale factor that stands in its own row."""
-        si, display, short = (
-            self.marked.keyed.asked.scales[misfit.symbol],
-            self.words.display.of_scales,
-            self.words.short,
-        )
+        si, short = self.marked.keyed.asked.scales[misfit.symbol], self.words.short
+        display = self.words.display.of_scales
         unit = self.words.spelled(f"({display.unit(si)})/mm")
         ratio = misfit.written / misfit.fits
         return self.said["again.large" if ratio > 1.0 else "again.small"].format(

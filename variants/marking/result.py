@@ -242,10 +242,8 @@ def result_of(marked: Marked, language: str) -> Result:
     ours, answers = marked.marking.key.paper.mus, marked.answers
     mus = {**ours}  # the student's scale factors, in whichever convention they are meant; ours where none is written
     for name, line in answers.lines.items():
-        question, mu = (
-            key.key.questions.get(name),
-            line.factor or answers.scales.get(key.scale_of(name, answers.scales)),
-        )
+        question = key.key.questions.get(name)
+        mu = line.factor or answers.scales.get(key.scale_of(name, answers.scales))
         if question is not None and mu is not None and question.plan in ours:
             mus[question.plan] = mu.nearest(ours[question.plan])
     exact = marked.seen is not None  # as drawings of a computer are: that tells nothing of them
@@ -343,24 +341,13 @@ def class_rows(lines: Lines, language: str) -> Iterator[tuple[Cell, ...]]:
     for line, flags in zip(lines, flags_of(lines, language), strict=True):
         who = (*(getattr(line.who, key) for key in told), line.variant)
         if isinstance(line, Entry):
-            yield (
-                *who,
-                *(None,) * (sheets + 1 + len(Verdict) + 3),
-                said["class.absent"],
-                spoken(line.place, language),
-            )
+            absent = said["class.absent"], spoken(line.place, language)
+            yield *who, *(None,) * (sheets + len(Verdict) + 4), *absent
             continue
         counts = tuple(line.counts.get(str(verdict)) for verdict in Verdict)
         about = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.noted(language)))
-        yield (
-            *who,
-            *[line.sheet] * sheets,
-            line.mark,
-            *counts,
-            *about,
-            spoken(line.source, language),
-            ", ".join(line.reports),
-        )
+        kept = spoken(line.source, language), ", ".join(line.reports)
+        yield *who, *[line.sheet] * sheets, line.mark, *counts, *about, *kept
     counted = commonest(lines)
     if counted:
         yield ()
