@@ -26,7 +26,7 @@ from .scales.errors import (
 from .scales.names import unknown
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
-from .variants.commands import completing, console
+from .variants.commands import console, helping
 from .variants.commands.helping import Group
 from .variants.commands.settings import settings
 from .variants.commands.teaching import all_variants, batch, check, handout
@@ -98,7 +98,7 @@ def commands(ctx: click.Context, lang: str | None) -> None:
 
 
 @console.command("kulman help solve", name="help")
-@click.argument("command", required=False, shell_complete=completing.completing(lambda ctx: commands.commands))
+@click.argument("command", required=False, shell_complete=helping.completing(lambda ctx: commands.commands))
 @console.of_language
 @click.pass_context
 def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None:
@@ -112,7 +112,7 @@ def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None
 
 
 @console.command("kulman guide", "kulman guide own-mechanism", name="guide")
-@click.argument("topic", required=False, shell_complete=completing.completing(completing.topics))
+@click.argument("topic", required=False, shell_complete=helping.completing(helping.topics))
 @console.of_language
 def show_guide(topic: str | None, lang: str | None) -> None:
     """Show a guide, page by page on a console; without TOPIC the list of them."""
@@ -128,7 +128,7 @@ def show_guide(topic: str | None, lang: str | None) -> None:
 
 @console.command("kulman list", "kulman list --json", name="list")
 @console.as_json
-@click.option("--check", "file", metavar="FILE", shell_complete=completing.files)
+@click.option("--check", "file", metavar="FILE", shell_complete=helping.files)
 @console.of_language
 def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
     """Show the tasks, their variants, and what each draws."""
@@ -181,7 +181,7 @@ def _check(file: str, as_json: bool) -> int:
 )
 @console.of_task
 @click.option("--condition", is_flag=True)
-@click.option("--hand", shell_complete=completing.completing(lambda ctx: HANDS))
+@click.option("--hand", shell_complete=helping.completing(lambda ctx: HANDS))
 @console.sized()
 @console.output(".solution")
 @console.as_json
@@ -225,10 +225,8 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 
 
 @console.command("kulman page --all site", "kulman page --all site scheme-09-shaper madi-cam --lang en")
-@click.argument(
-    "tasks", metavar="TASK...", nargs=-1, shell_complete=completing.completing(completing.tasks, with_files=True)
-)
-@click.option("--all", "folder", metavar="FOLDER", required=True, shell_complete=completing.files)
+@click.argument("tasks", metavar="TASK...", nargs=-1, shell_complete=helping.completing(helping.tasks, with_files=True))
+@click.option("--all", "folder", metavar="FOLDER", required=True, shell_complete=helping.files)
 @click.option("--jobs", metavar="N", callback=console.processes)
 @console.of_language
 def page(tasks: tuple[str, ...], folder: str, jobs: int, lang: str | None) -> int:
@@ -300,11 +298,11 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman chart madi-cam --chart sections -o sections.csv",
 )
 @console.of_task
-@console.listed("--chart", "CHART,...", completing.charts)
-@console.listed("--quantities", "NAME,...", completing.quantities)
+@console.listed("--chart", "CHART,...", helping.charts)
+@console.listed("--quantities", "NAME,...", helping.quantities)
 @console.counted("--positions")
 @click.option("--tolerance", metavar="%", default="1", show_default=True)
-@click.option("--hand", shell_complete=completing.completing(lambda ctx: HANDS), default="normal", show_default=True)
+@click.option("--hand", shell_complete=helping.completing(lambda ctx: HANDS), default="normal", show_default=True)
 @console.output(".charts.charts")
 @console.as_json
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
@@ -326,9 +324,9 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman new my-cam.toml --kind cam",
     "kulman new --from scheme-09-shaper my-shaper.toml",
 )
-@click.argument("file", shell_complete=completing.files)
+@click.argument("file", shell_complete=helping.files)
 @click.option("--kind", type=console.Word(*KINDS), default=KINDS[0], show_default=True)
-@click.option("--from", "source", metavar="TASK", shell_complete=completing.completing(completing.tasks))
+@click.option("--from", "source", metavar="TASK", shell_complete=helping.completing(helping.tasks))
 @console.of_language
 @click.pass_context
 def new(ctx: click.Context, file: str, kind: str, source: str | None, lang: str | None) -> None:
@@ -341,7 +339,7 @@ def new(ctx: click.Context, file: str, kind: str, source: str | None, lang: str 
 
 
 @console.command("kulman show nau-slider-crank")
-@click.argument("task", shell_complete=completing.completing(completing.tasks))
+@click.argument("task", shell_complete=helping.completing(helping.tasks))
 @console.of_language
 def show(task: str, lang: str | None) -> None:
     """Print the task file of a bundled TASK."""
@@ -354,7 +352,7 @@ def show(task: str, lang: str | None) -> None:
 @console.counted("--port")
 @click.option("--host", default="127.0.0.1", show_default=True)
 @click.option("--name", "names", multiple=True)
-@click.option("--password-file", "passwords", metavar="FILE", shell_complete=completing.files)
+@click.option("--password-file", "passwords", metavar="FILE", shell_complete=helping.files)
 @click.option("--students", type=console.Word("forms", "sheets", "answers"))
 @click.option("--open", "opened", is_flag=True)
 @console.of_language

@@ -22,7 +22,7 @@ from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
-from . import completing
+from . import helping
 from .helping import Command, place
 from .settings import NORMS
 
@@ -248,7 +248,7 @@ class Word(TextType):
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
         """Return the words that a shell may complete."""
-        return [completing.item(word) for word in self.words if word.lower().startswith(incomplete.lower())]
+        return [helping.item(word) for word in self.words if word.lower().startswith(incomplete.lower())]
 
 
 def pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
@@ -284,7 +284,7 @@ def output(module: str, required: bool = False) -> Callable[[Function], Function
         check_outputs(*paths, known=import_module(module, VARIANTS).SUFFIXES)
         return paths
 
-    names, ending = ("-o", "--output", "files"), completing.suffixed(module, VARIANTS)
+    names, ending = ("-o", "--output", "files"), helping.suffixed(module, VARIANTS)
     return click.option(
         *names, metavar="FILE", multiple=True, required=required, callback=checked, shell_complete=ending
     )
@@ -301,21 +301,21 @@ def _stacked(*options: Any) -> Callable[[Function], Function]:
     return add
 
 
-def listed(name: str, metavar: str, source: completing.Source | None = None) -> Callable[[Function], Function]:
+def listed(name: str, metavar: str, source: helping.Source | None = None) -> Callable[[Function], Function]:
     """Return an option for names, each alone or several with commas between; a shell completes those of a source."""
-    complete = completing.completing(source) if source is not None else None
+    complete = helping.completing(source) if source is not None else None
     return click.option(name, metavar=metavar, multiple=True, callback=_given, shell_complete=complete)
 
 
-_named = completing.completing(completing.tasks, with_files=True)
+_named = helping.completing(helping.tasks, with_files=True)
 # the language, which `main` has already taken for messages
 of_language = click.option("--lang", type=Word(*LANGUAGES))
 _about_task: tuple[Any, ...] = (
-    click.option("-v", "--variant", shell_complete=completing.completing(completing.variants)),
+    click.option("-v", "--variant", shell_complete=helping.completing(helping.variants)),
     click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, callback=pairs),
     click.option("--scale", "scales", metavar="NAME=VALUE", multiple=True, callback=pairs),
-    listed("--only", "PLAN,...", completing.plans),
-    click.option("--notation", shell_complete=completing.completing(completing.notations)),
+    listed("--only", "PLAN,...", helping.plans),
+    click.option("--notation", shell_complete=helping.completing(helping.notations)),
     of_language,
 )
 of_task = _stacked(click.argument("task", shell_complete=_named), *_about_task)

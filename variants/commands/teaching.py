@@ -10,7 +10,7 @@ import click
 from ...scales.choices import HANDS, SHEETS
 from ...scales.errors import InputError, messages, system_language
 from ...scales.numbers import SHOWN, quote
-from . import completing, console
+from . import console, helping
 
 if TYPE_CHECKING:
     from ..marking.checks import Check
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @click.option("--steps", metavar="K", default="0", show_default=True, callback=console.count)
 @click.option("--key", is_flag=True)
 @click.option("--hidden-key", is_flag=True)
-@click.option("--over", metavar="PLAN", shell_complete=completing.completing(completing.plans))
+@click.option("--over", metavar="PLAN", shell_complete=helping.completing(helping.plans))
 @click.option("--grid", is_flag=True)
 @click.option("--scan", is_flag=True)
 @click.option("--markers", is_flag=True)
@@ -88,11 +88,11 @@ def _markers(files: tuple[Path, ...], tile: str | None, options: dict[str, Any])
     name="variants",
 )
 @console.of_task
-@console.listed("--quantities", "NAME,...", completing.quantities)
+@console.listed("--quantities", "NAME,...", helping.quantities)
 @console.counted("--make")
 @click.option("--range", "ranges", metavar="NAME=RANGE", multiple=True, callback=console.pairs)
 @console.counted("--seed")
-@click.option("--from", "table", metavar="FILE", shell_complete=completing.files)
+@click.option("--from", "table", metavar="FILE", shell_complete=helping.files)
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @click.option("--by", type=console.Word("variant", "quantity"), default="variant", show_default=True)
 @console.output(".making.all_variants")
@@ -116,9 +116,9 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
 )
 @console.of_tasks
-@click.option("--roster", metavar="FILE", shell_complete=completing.files)
-@click.option("--form", metavar="FILE", shell_complete=completing.files)
-@click.option("--out", "folder", metavar="FOLDER", shell_complete=completing.files)
+@click.option("--roster", metavar="FILE", shell_complete=helping.files)
+@click.option("--form", metavar="FILE", shell_complete=helping.files)
+@click.option("--out", "folder", metavar="FOLDER", shell_complete=helping.files)
 @click.option(
     "--as",
     "kinds",
@@ -174,17 +174,17 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     "kulman check nau-slider-crank printed --preset lenient -o report.html",
 )
 @console.of_task
-@click.argument("answers", nargs=-1, shell_complete=completing.files)
-@click.option("--form", metavar="FILE", shell_complete=completing.files)
+@click.argument("answers", nargs=-1, shell_complete=helping.files)
+@click.option("--form", metavar="FILE", shell_complete=helping.files)
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @click.option("--verdict-only", "own", is_flag=True)
 @console.sized()
-@click.option("--rubric", metavar="FILE", shell_complete=completing.files)
+@click.option("--rubric", metavar="FILE", shell_complete=helping.files)
 @click.option("--directions", type=console.Word("required", "optional", "ignored"))
-@click.option("--roster", metavar="FILE", shell_complete=completing.files)
+@click.option("--roster", metavar="FILE", shell_complete=helping.files)
 @click.option("--digits", metavar="N|WORD,...", default="1", show_default=True)
-@click.option("--out", "folder", metavar="FOLDER", shell_complete=completing.files)
-@click.option("--moodle", metavar="FILE", shell_complete=completing.files, type=Path)
+@click.option("--out", "folder", metavar="FOLDER", shell_complete=helping.files)
+@click.option("--moodle", metavar="FILE", shell_complete=helping.files, type=Path)
 @click.option("--jobs", metavar="N", callback=console.processes)
 @console.output(".marking.report")
 @click.option("--json", "as_json", is_flag=True)
