@@ -23,6 +23,7 @@ from .scales.errors import (
     speaking,
     system_language,
 )
+from .scales.kept import seldom_collected
 from .scales.names import unknown
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
@@ -42,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         console.encode(stream)
     atexit.register(gc.freeze)  # nothing is looked through at the end, which takes a tenth of the time of charts
     words = sys.argv[1:] if arguments is None else arguments
-    with speaking(words):
+    with seldom_collected(), speaking(words):
         sys.exit(_run(words))
 
 
@@ -307,14 +308,12 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @console.as_json
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""
-    from .scales.kept import seldom_collected
     from .variants.charts.charts import chart as measured
 
     language = console.of_documents(options.pop("lang"), bool(files))
-    with seldom_collected():
-        with console.progress() as advance:
-            found = measured(task, set=settings, lang=language, advance=advance, **options)
-        console.hand_over(found, files, as_json)
+    with console.progress() as advance:
+        found = measured(task, set=settings, lang=language, advance=advance, **options)
+    console.hand_over(found, files, as_json)
     console.warn(found.warnings)
 
 
