@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from cmath import phase, rect
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -21,7 +22,9 @@ APART = 1.4  # mm that should be left between two labels side by side, beyond th
 BAR = 1.2  # mm between a label and the leader of another, which nearer would look like a bar over or under it
 SOME = 120  # leaders, the cheapest for their own sake, that are looked at
 AGAIN = 4  # times that all labels are placed anew when some found no place; the last time leaders may cross lines
+BEST = (0, 6, 48)  # places along its segment, from the best one on, that are looked at together
 FARTHEST = 1e4  # mm: so far apart labels stand in nobody's way
+NOBODY = np.zeros(0, dtype=int)
 ROUNDS = 3  # times that labels in trouble are looked through
 MANY = 24  # of these, for whom no order helps: the drawing is crowded
 
@@ -70,7 +73,7 @@ class Scene:
             raise ValueError("two labels have one name")
         self.requests, self.gap = requests, max(gap, 0.01)
         self._asked: dict[tuple[Request, ...], Scene] = {}
-        self._placed: dict[tuple[frozenset[str], bool], Labels] = {}
+        self._boards: dict[tuple[frozenset[str], tuple[int, ...], bool], _Board] = {}
         if requests:
             self._weigh(obstacles, bounds)
 
@@ -82,7 +85,7 @@ class Scene:
 
     def _asking(self, requests: tuple[Request, ...]) -> Scene:
         other = copy(self)
-        other._asked, other._placed = {}, {}
+        other._asked, other._boards = {}, {}
         other.requests = requests
         if [(r.width, r.height) for r in requests] != [(r.width, r.height) for r in self.requests]:
             half = np.array([(r.width / 2, r.height / 2) for r in requests], dtype=float).T
@@ -95,29 +98,31 @@ class Scene:
 
         Leaders cross lines at last, where they may.
         """
-        key = frozenset(without), may_cross
-        if key not in self._placed:
-            self._placed[key] = self._place(*key) if self.requests else Labels()
-        return self._placed[key]
-
-    def _place(self, without: Collection[str], may_cross: bool) -> Labels:
-        board, first, cross = _Board(self, without, ()), tuple[int, ...](), False
-        better, tried = board, (first, cross)
+        if not self.requests:
+            return Labels()
+        out, first, cross = frozenset(without), tuple[int, ...](), False
+        board = self._board(out, first, cross)
         for again in range(AGAIN):
-            failed = board.in_trouble()
+            failed = board.failed
             if not failed or len(failed) > MANY or not all(self.requests[i].afield for i in failed):
                 break
             # who found no place the last time chooses first the next time
             first, cross = (*first, *(i for i in failed if i not in first)), again == AGAIN - 1 or cross
-            if (first, cross) != tried:
-                better, tried = _Board(self, without, first, cross and may_cross), (first, cross)
-            if len(better.in_trouble()) < len(failed):
+            better = self._board(out, first, cross and may_cross)
+            if len(better.failed) < len(failed):
                 board = better
             elif cross or not may_cross:
                 break
             else:
                 cross = True  # no order helps
-        return board.labels()
+        return board.labels
+
+    def _board(self, without: frozenset[str], first: tuple[int, ...], cross: bool) -> _Board:
+        """Return what comes of an order: whoever leaves the same ones out, or may cross lines, tries it again."""
+        key = without, first, cross
+        if key not in self._boards:
+            self._boards[key] = _Board(self, *key)
+        return self._boards[key]
 
     def _weigh(self, obstacles: Obstacles, bounds: Box | None) -> None:
         self.wanted = Wanted.of(self.requests, obstacles, self.gap)
@@ -126,11 +131,14 @@ class Scene:
 
     def _lay_out(self) -> None:
         self.grid = self.around.grid(self.wanted, spots.NEAR)
-        self._leads: dict[tuple[int, bool, bool], tuple[Points, Reals, Flags]] = {}
-        self._bent: dict[int, tuple[Points, Reals, Points]] = {}
-        self._along: dict[int, tuple[Points, complex]] = {}
+        (x, y, _), w, about = self.grid, self.wanted, self.gap + APART
+        self.low = x.min(axis=1) - w.hw - about + 1j * (y.min(axis=1) - w.hh - about)
+        self.high = x.max(axis=1) + w.hw + about + 1j * (y.max(axis=1) + w.hh + about)
+        self._leads: dict[tuple[int, bool, bool], tuple[_Ways, Points, Reals, Flags]] = {}
+        self._bent: dict[int, tuple[_Ways, Points, Reals, Points]] = {}
+        self._along: dict[tuple[int, int], tuple[_Ways, Points, complex]] = {}
 
-    def leads(self, i: int, afield: bool, cross: bool) -> tuple[Points, Reals, Flags]:
+    def leads(self, i: int, afield: bool, cross: bool) -> tuple[_Ways, Points, Reals, Flags]:
         """Return leaders of label i whose ends cover nothing, shape (4, K), their costs, and which cross lines.
 
         They cross nothing, unless they may `cross` lines. They are the same every time that all labels are placed anew.
@@ -148,10 +156,12 @@ class Scene:
             _, head, start, way = leads
             crossings = self.around.crossed(head, start + spots.TOUCH * way)
             few = np.arange(len(cost)) if cross else (crossings == 0).nonzero()[0]
-            self._leads[key] = leads[:, few], (cost + spots.CROSSING * crossings)[few], crossings[few] > 0
+            at, head, start, way = leads = leads[:, few]
+            ways = self._ways(i, at, (start + spots.TOUCH * way, head))
+            self._leads[key] = ways, leads, (cost + spots.CROSSING * crossings)[few], crossings[few] > 0
         return self._leads[key]
 
-    def bent(self, i: int) -> tuple[Points, Reals, Points]:
+    def bent(self, i: int) -> tuple[_Ways, Points, Reals, Points]:
         """Return leaders of label i with a bend that cross nothing and whose ends cover nothing, as `leads` does.
 
         Returned are the parts from the bends, shape (4, K), what each costs, and where they start.
@@ -166,8 +176,31 @@ class Scene:
             left = _cheapest(costs, around.free(leads[0], *half, True).nonzero()[0])
             left = left[around.barring.clear(leads[:, left], SOME)]
             left = left[around.crossed(leads[1, left], leads[2, left]) == 0]
-            self._bent[i] = leads[:, left], costs[left], start[few][k[left]]
+            (at, head, knee, way), start = leads[:, left], start[few][k[left]]
+            ways = self._ways(i, at, (knee + spots.TOUCH * way, head), (start, knee))
+            self._bent[i] = ways, leads[:, left], costs[left], start
         return self._bent[i]
+
+    def _ways(self, i: int, at: Points, *parts: tuple[Points, Points]) -> _Ways:
+        """Return label i at places on leaders, whose parts have these starts and ends."""
+        hw, hh, gap = self.wanted.hw[i], self.wanted.hh[i], self.gap
+        sides, leaders = [Convex.of(*part) for part in parts], [lines(*part)[:, None] for part in parts]
+
+        def by_labels(x: Reals, y: Reals, wide: Reals, high: Reals) -> Flags:
+            taken: Flags = abs(at.real[:, None] - x) < wide + (hw + gap - spots.SLACK)
+            taken &= abs(at.imag[:, None] - y) < high + (hh + gap - spots.SLACK)
+            for side in sides:
+                taken |= side.distance(x[:, None], y[:, None], wide[:, None], high[:, None]).T < BAR
+            return taken
+
+        def by_strokes(a: Points, b: Points, radius: Reals) -> Flags:
+            laid, of = Convex.of(a, b)._replace(radius=radius), radius > 0
+            taken: Flags = laid.distance(at.real[:, None], at.imag[:, None], hw, hh) < np.where(of, gap, BAR)
+            for leader in leaders if of.any() else ():
+                taken[:, of] |= shapely.distance(leader, lines(a[of], b[of])) < radius[of] + BAR
+            return taken
+
+        return _Ways(np.append(at, parts), hw + gap + APART, hh + gap + APART, by_labels, by_strokes)
 
     @property
     def shut_in(self) -> int:
@@ -178,17 +211,69 @@ class Scene:
         """Tell which boxes thin strokes run through."""
         return self.around.struck(boxes) if self.requests else [False] * len(boxes)
 
-    def along(self, i: int) -> tuple[Points, complex]:
-        """Return where label i may run along its segment, the best place first, and in which direction."""
-        if i not in self._along:
-            at, e, _ = self.wanted.turned(i)
-            self._along[i] = at[self.around.along(self.wanted, i, at, e)], e
-        return self._along[i]
+    def along(self, i: int) -> Iterator[tuple[_Ways, Points, complex]]:
+        """Go through places where label i may run along its segment, the best few first, and its direction there."""
+        for begin, end in pairwise(BEST):
+            if (i, begin) not in self._along:
+                at, e, _ = self.wanted.turned(i)
+                at = at[begin:end]
+                at = at[self.around.along(self.wanted, i, at, e)]
+                self._along[i, begin] = self._turned(i, at, e), at, e
+            yield self._along[i, begin]
+
+    def _turned(self, i: int, at: Points, e: complex) -> _Ways:
+        """Return label i at places along its segment, in the direction `e`: there it is a stroke as wide as itself."""
+        start, end, half, gap = at - self.wanted.hw[i] * e, at + self.wanted.hw[i] * e, self.wanted.hh[i], self.gap
+        strokes, line = Convex.of(start, end), lines(start, end)[:, None]
+        strokes.radius[:] = half
+
+        def by_labels(x: Reals, y: Reals, wide: Reals, high: Reals) -> Flags:
+            taken: Flags = (strokes.distance(x[:, None], y[:, None], wide[:, None], high[:, None]) < gap).T
+            return taken
+
+        def by_strokes(a: Points, b: Points, radius: Reals) -> Flags:
+            taken: Flags = shapely.distance(line, lines(a, b)) < half + radius + gap
+            return taken
+
+        return _Ways(np.append(start, end), half + gap, half + gap, by_labels, by_strokes)
 
 
 def _cheapest(costs: Reals, few: Numbers) -> Numbers:
     """Return a few, by number, the cheapest first; of two that cost the same the first one stays before the other."""
     return few[np.argsort(costs[few], kind="stable")]
+
+
+class _Ways:
+    """Some places of a label, and which of them others take: all are placed anew many times, most where they stood."""
+
+    def __init__(
+        self,
+        points: Points,
+        wide: float,
+        high: float,
+        by_labels: Callable[[Reals, Reals, Reals, Reals], Flags],
+        by_strokes: Callable[[Points, Points, Reals], Flags],
+    ) -> None:
+        if points.size:  # whoever stands farther away than that from all of them takes none
+            x, y, about = points.real, points.imag, complex(wide, high)
+            self.low, self.high = complex(x.min(), y.min()) - about, complex(x.max(), y.max()) + about
+        self.by_labels, self.by_strokes = by_labels, by_strokes
+        self._taken: dict[tuple[complex, ...], int] = {}  # a bit for each place, by what takes it
+
+    def left(self, labels: Sequence[tuple[float, ...]], strokes: Sequence[tuple[complex, ...]], count: int) -> Numbers:
+        """Return which of `count` places labels, by middles and half sizes, and strokes leave free."""
+        taken = 0
+        for every, of in ((labels, self.by_labels), (strokes, self.by_strokes)):
+            new = [one for one in every if one not in self._taken]
+            if new:
+                flags = np.packbits(of(*map(np.array, zip(*new, strict=True))), axis=0, bitorder="little")
+                for one, bits in zip(new, flags.T, strict=True):
+                    self._taken[one] = int.from_bytes(bits.tobytes(), "little")
+            for one in every:
+                taken |= self._taken[one]
+        bits = np.frombuffer(taken.to_bytes(-(-count // 8), "little"), dtype=np.uint8)
+        free: Numbers = (np.unpackbits(bits, count=count, bitorder="little") == 0).nonzero()[0]
+        return free
 
 
 class _Board:
@@ -200,7 +285,7 @@ class _Board:
 
     def __init__(self, scene: Scene, without: Collection[str], first: Sequence[int], cross: bool = False) -> None:
         self.scene, self.requests, self.wanted, self.gap = scene, scene.requests, scene.wanted, scene.gap
-        self.x, self.y, self.cost = scene.grid
+        self.x, self.y, self.cost = scene.grid._replace(cost=scene.grid.cost.copy())
         rows = np.arange(len(self.x))
         pick = self.cost.argmin(axis=1)
         self.now_x, self.now_y, self.now = (column[rows, pick] for column in scene.grid)
@@ -208,7 +293,7 @@ class _Board:
         self.leaders: dict[int, tuple[complex, ...]] = {}
         self.angles: dict[int, tuple[complex, float]] = {}  # middles and directions of labels along their segments
         self._laid: list[tuple[complex, complex, float]] = []  # what these and leaders take: strokes, their half widths
-        self._strokes: tuple[Convex, Shapes, Reals] | None = None
+        self._leaders: Shapes | None = None  # those of them that are leaders
         self._out = [i for i, request in enumerate(self.requests) if request.name in without]
         self._optional = [i for i, request in enumerate(self.requests) if request.optional and i not in self._out]
         away = self._out + self._optional
@@ -238,9 +323,11 @@ class _Board:
         for i in self._crossed() * 2:  # who moves may leave room for another
             if i not in self.leaders and i not in self.angles:
                 self._apart(i, spots.THIN, False, False)
+        self.failed = self.in_trouble()
 
+    @cached_property
     def labels(self) -> Labels:
-        """Return where all stand, and who of them does not stand well."""
+        """Where all stand, and who of them does not stand well; optional ones are placed last."""
         names, w = [request.name for request in self.requests], self.wanted
         gone = {names[i] for i in self._optional if not self._room(i)} | {names[i] for i in self._out}
         corners = (self.now_x - w.hw) + 1j * (self.now_y - w.hh)
@@ -268,24 +355,40 @@ class _Board:
         crossed: list[int] = ((self.now >= spots.THIN) & (self.now < spots.COVER)).nonzero()[0].tolist()
         return crossed
 
-    def _beside(self, i: int, x: Reals, y: Reals, apart: float = 0.0) -> tuple[Flags, Flags]:
-        """Tell, shape (K, L), which labels label i would touch at x, y, and which also stand less than `apart` beside.
+    def _near(self, i: int, low: complex, high: complex) -> Numbers:
+        """Return the labels, but for label i, that reach into the box between two corners: those that are looked at."""
+        w = self.wanted
+        near = abs(self.now_x - 0.5 * (low.real + high.real)) <= w.hw + 0.5 * (high.real - low.real)
+        near &= abs(self.now_y - 0.5 * (low.imag + high.imag)) <= w.hh + 0.5 * (high.imag - low.imag)
+        near &= self.down
+        near[i] = False
+        labels: Numbers = near.nonzero()[0]
+        return labels
+
+    def _beside(self, i: int, x: Reals, y: Reals, near: Numbers) -> tuple[Flags, Flags]:
+        """Tell, shape (K, N), which of the labels `near` label i would touch at x, y, and which also stand beside it.
 
         Two letters side by side read as one word.
         """
         w = self.wanted
-        wide, high = w.hw + (w.hw[i] + self.gap - spots.SLACK), w.hh + (w.hh[i] + self.gap - spots.SLACK)
-        level = abs(y[:, None] - self.now_y) < high
-        level &= self.down
-        level[:, i] = False
-        across = abs(x[:, None] - self.now_x)
-        return level & (across < wide), level & (across < wide + apart)
+        wide, high = w.hw[near] + (w.hw[i] + self.gap - spots.SLACK), w.hh[near] + (w.hh[i] + self.gap - spots.SLACK)
+        level = abs(y[:, None] - self.now_y[near]) < high
+        across = abs(x[:, None] - self.now_x[near])
+        return level & (across < wide), level & (across < wide + APART)
+
+    def _among(self, i: int) -> tuple[Reals, Flags, Numbers]:
+        """Return what places of label i cost among the others, which of these it would touch there, who they are."""
+        near = self._near(i, self.scene.low[i], self.scene.high[i])
+        if not near.size:
+            return self.cost[i], np.zeros((len(self.cost[i]), 0), dtype=bool), near
+        touched, close = self._beside(i, self.x[i], self.y[i], near)
+        cost = self.cost[i] + spots.COVER * touched.sum(axis=1)
+        cost += spots.CLOSE * close.sum(axis=1)
+        return cost, touched, near
 
     def _best(self, i: int) -> tuple[float, int]:
         """Return the cost and the number of the best place of label i among the others."""
-        touched, close = self._beside(i, self.x[i], self.y[i], APART)
-        cost = self.cost[i] + spots.COVER * touched.sum(axis=1)
-        cost += spots.CLOSE * close.sum(axis=1)
+        cost = self._among(i)[0]
         k = int(cost.argmin())
         return float(cost[k]), k
 
@@ -309,17 +412,20 @@ class _Board:
 
     def _troubled(self, i: int) -> bool:
         """Tell whether label i is in trouble."""
-        touched = self._beside(i, self.now_x[i : i + 1], self.now_y[i : i + 1])[0]
+        own, w = slice(i, i + 1), self.wanted
+        at, reach = complex(self.now_x[i], self.now_y[i]), complex(w.hw[i] + self.gap, w.hh[i] + self.gap)
+        touched, _ = self._beside(i, self.now_x[own], self.now_y[own], self._near(i, at - reach, at + reach))
         return bool(self.down[i] and (self.now[i] >= spots.COVER or touched.any()))
 
     def _improve(self, i: int) -> bool:
-        cost, k = self._best(i)
-        if cost < spots.COVER:
+        cost, blocked, near = self._among(i)
+        k = int(cost.argmin())
+        if cost[k] < spots.COVER:
             self._put(i, k)
             return True
-        blocked, _ = self._beside(i, self.x[i], self.y[i])
-        order = np.argsort(self.cost[i], kind="stable")[:24].tolist()
-        return any(self.cost[i, k] < spots.COVER and self._push(i, k, blocked[k].nonzero()[0].tolist()) for k in order)
+        own = self.cost[i]
+        order = [k for k in np.argsort(own, kind="stable")[:24].tolist() if own[k] < spots.COVER]
+        return any(self._push(i, k, near[blocked[k]].tolist()) for k in order)
 
     def _push(self, i: int, k: int, blockers: list[int]) -> bool:
         if len(blockers) > 3 or not self.leaders.keys().isdisjoint(blockers):
@@ -349,50 +455,50 @@ class _Board:
 
     def _turned(self, i: int) -> bool:
         """Let label i run along its segment, if it finds room there."""
-        (at, e), w = self.scene.along(i), self.wanted
-        strokes = Convex.of(at - w.hw[i] * e, at + w.hw[i] * e)
-        strokes.radius[:] = w.hh[i]
-        clear = (strokes.distance(self.now_x[:, None], self.now_y[:, None], w.hw[:, None], w.hh[:, None]) >= self.gap).T
-        clear |= ~self.down
-        clear[:, i] = True
-        if not (at := at[clear.all(axis=1)]).size:
-            return False
-        _, laid, radius = self._laid_down()
-        line = lines(at - w.hw[i] * e, at + w.hw[i] * e)
-        free = (shapely.distance(line[:, None], laid) >= w.hh[i] + radius + self.gap).all(axis=1)
-        if not free.any():
-            return False
-        middle = complex(at[int(free.argmax())])
-        self.angles[i] = middle, phase(e)
-        self._set_apart(i, complex(FARTHEST * (i + 1)), (middle - w.hw[i] * e, middle + w.hw[i] * e), float(w.hh[i]))
-        return True
+        for ways, at, e in self.scene.along(i):
+            free, _ = self._free(i, ways, len(at))
+            if free.size:
+                middle, half = complex(at[free[0]]), complex(self.wanted.hw[i] * e)
+                self.angles[i] = middle, phase(e)
+                stroke, high = (middle - half, middle + half), float(self.wanted.hh[i])
+                self._set_apart(i, complex(FARTHEST * (i + 1)), stroke, high)
+                return True
+        return False
 
-    def _laid_down(self) -> tuple[Convex, Shapes, Reals]:
-        """Return what leaders and labels along their segments take: as areas, as lines, and by their half widths."""
-        if self._strokes is None or len(self._strokes[1]) < len(self._laid):
-            a, b, radius = np.array(self._laid, dtype=complex).reshape(-1, 3).T
-            self._strokes = Convex.of(a, b)._replace(radius=radius.real), lines(a, b), radius.real
-        return self._strokes
+    def _free(self, i: int, ways: _Ways, count: int) -> tuple[Numbers, Numbers]:
+        """Return which of `count` places of label i no other label and no leader takes, and the labels near them."""
+        if not count:
+            return NOBODY, NOBODY
+        near, w = self._near(i, ways.low, ways.high), self.wanted
+        labels = zip(*(column[near].tolist() for column in (self.now_x, self.now_y, w.hw, w.hh)), strict=True)
+        return ways.left([*labels], self._laid, count), near
 
     def _set_apart(self, i: int, at: complex, stroke: Segment, radius: float) -> None:
         """Note where label i stands; no other label may stand on the stroke that it takes from now on."""
         self.now_x[i], self.now_y[i], self.now[i], self.down[i] = at.real, at.imag, 0.0, True
         self._laid.append((*stroke, radius))
+        self._leaders = None
         line, w = Convex.of(*np.array([stroke]).T), self.wanted
         line.radius[:] = radius
-        near = line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None])
-        self.cost = self.cost + spots.COVER * (near < (self.gap if radius else BAR))
-        rows = (~self.down).nonzero()[0]
+        (a, b), (low, high), reach = stroke, (self.scene.low, self.scene.high), max(radius, BAR)
+        rows = (low.real <= max(a.real, b.real) + reach) & (high.real >= min(a.real, b.real) - reach)
+        rows &= (low.imag <= max(a.imag, b.imag) + reach) & (high.imag >= min(a.imag, b.imag) - reach)
+        rows = rows.nonzero()[0]  # of labels that may stand there
+        near = line.distance(self.x[rows], self.y[rows], w.hw[rows, None], w.hh[rows, None])
+        self.cost[rows] += spots.COVER * (near < (self.gap if radius else BAR))
+        rows = rows[~self.down[rows]]
         pick = self.cost[rows].argmin(axis=1)
         self.now_x[rows], self.now_y[rows] = self.x[rows, pick], self.y[rows, pick]
         self.now[rows] = self.cost[rows, pick]
 
     def _bent(self, i: int) -> bool:
         """Move label i onto the cheapest leader with a bend that is in nobody's way."""
-        leads, cost, starts = self.scene.bent(i)
-        if not cost.size:
+        ways, leads, cost, starts = self.scene.bent(i)
+        free, near = self._free(i, ways, len(cost))
+        if not free.size:
             return False
-        cost = cost + self._in_the_way(i, leads) + self._on_the_way(i, starts, leads[2])
+        leads, starts = leads[:, free], starts[free]
+        cost = cost[free] + self._in_the_way(i, leads, near) + self._across(starts, leads[2])
         best = int(cost.argmin())
         if cost[best] >= spots.CROSSING:
             return False
@@ -405,37 +511,34 @@ class _Board:
 
     def _led(self, i: int, way: tuple[bool, bool], limit: float) -> bool:
         """Move label i onto the cheapest leader of a way that is in nobody's way."""
-        leads, cost, barred = self.scene.leads(i, *way)
-        if not cost.size or cost.min() >= limit or (cost := cost + self._in_the_way(i, leads)).min() >= limit:
+        ways, leads, cost, barred = self.scene.leads(i, *way)
+        free, near = self._free(i, ways, len(cost))
+        if not free.size:
             return False
+        leads = leads[:, free]
+        cost = cost[free] + self._in_the_way(i, leads, near)
         best = int(cost.argmin())
+        if cost[best] >= limit:
+            return False
         at, head, start, e = leads[:, best].tolist()
         leader = head - e * self.gap / 2, start
         self.leaders[i] = leader
         self._set_apart(i, at, leader, 0.0)
-        self.now[i] = spots.THIN if barred[best] else 0.0
+        self.now[i] = spots.THIN if barred[free[best]] else 0.0
         return True
 
-    def _in_the_way(self, i: int, leads: Points) -> Reals:
-        """Return what it costs that label i on a leader touches others, or the leader runs through or along them."""
-        (at, head, start, way), w = leads, self.wanted
-        touched, close = self._beside(i, at.real, at.imag, APART)
-        laid, _, radius = self._laid_down()
-        on = laid.distance(at.real[:, None], at.imag[:, None], w.hw[i], w.hh[i]) < np.where(radius, self.gap, BAR)
-        cost = np.where(touched.any(axis=1) | on.any(axis=1), spots.COVER, spots.CLOSE * close.sum(axis=1))
-        left = (cost < spots.COVER).nonzero()[0]  # the others are lost already
-        cost[left] += self._on_the_way(i, (start + spots.TOUCH * way)[left], head[left])
+    def _in_the_way(self, i: int, leads: Points, near: Numbers) -> Reals:
+        """Return what it costs that label i stands on leaders close to others `near`, or these cross other leaders."""
+        at, head, start, way = leads
+        _, close = self._beside(i, at.real, at.imag, near)
+        cost: Reals = spots.CLOSE * close.sum(axis=1) + self._across(start + spots.TOUCH * way, head)
         return cost
 
-    def _on_the_way(self, i: int, start: Points, head: Points) -> Reals:
-        """Return what it costs that parts of leaders of label i run through or along other labels and leaders."""
-        (_, older, radius), w = self._laid_down(), self.wanted
-        others = self.now_x[:, None], self.now_y[:, None], w.hw[:, None], w.hh[:, None]
-        barred = (Convex.of(start, head).distance(*others) < BAR) & self.down[:, None]
-        barred[i] = False
-        cost: Reals = np.where(barred.any(axis=0), spots.COVER, 0.0)
-        left, of = (cost == 0).nonzero()[0], radius > 0
-        leaders = lines(start[left], head[left])[:, None]
-        cost[left] += spots.COVER * (shapely.distance(leaders, older[of]) < radius[of] + BAR).any(axis=1)
-        cost[left] += spots.CROSSING * shapely.crosses(leaders, older[~of]).sum(axis=1)
+    def _across(self, start: Points, head: Points) -> Reals:
+        """Return what it costs that leaders, or parts of them, cross other leaders."""
+        if not any(radius == 0.0 for *_, radius in self._laid):
+            return np.zeros(len(start))
+        if self._leaders is None:
+            self._leaders = lines(*np.array([(a, b) for a, b, radius in self._laid if radius == 0.0]).T)
+        cost: Reals = spots.CROSSING * shapely.crosses(lines(start, head)[:, None], self._leaders).sum(axis=1)
         return cost

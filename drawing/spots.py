@@ -430,7 +430,7 @@ class Surroundings:
         across, upward = (np.arange(-size - near, size + near + CELL, CELL) for size in (hw, hh))
         rows = (across + 1j * upward[:, None]) * e
         free = np.ones(len(at), dtype=bool)
-        for inside in (rows[::4], rows):  # some rows tell of most places that they are taken
+        for inside in (rows[len(rows) // 2], rows[::4], rows):  # some rows tell of most places that they are taken
             left = free.nonzero()[0]
             points = at[left, None] + inside.ravel()
             free[left] = ~self.cells.at(points.real, points.imag).any(axis=1)
@@ -438,16 +438,22 @@ class Surroundings:
         free &= ~self._beyond(at, half)
         if not free.any():
             return free
-        left = free.nonzero()[0]
+        left, reach = free.nonzero()[0], float(wanted.clear[i]) + NEAR[2] + SURELY
         corners = np.array([s * hw + t * 1j * hh for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) * e
         boxes = shapely.polygons(pairs(at[left, None] + corners))
-        k, j = self.tree.query(boxes, predicate="dwithin", distance=float(wanted.clear[i]) + NEAR[2] + SURELY)
+        # what is far from the upright box round a turned one is far from it, too
+        away = self.things.distance(at.real[left, None], at.imag[left, None], half.real, half.imag)
+        close_by: Flags = away <= reach
+        k, j = close_by.nonzero()
         distance = shapely.distance(boxes[k], self.shapes[j])
-        far, one = abs(((at - wanted.a[i]) / e).imag) - hh, np.zeros(len(j), dtype=int)  # from its own segment
-        own = Wanted._make(column[i : i + 1] for column in wanted)
-        lead = np.where(self._belongs(own, one, j), -EVEN, SURELY)
+        far = abs(((at - wanted.a[i]) / e).imag) - hh  # from its own segment
+        own, every = Wanted._make(column[i : i + 1] for column in wanted), np.flatnonzero(close_by.any(axis=0))
+        one = np.zeros(len(every), dtype=int)
+        lead, same = np.full(len(self.kind), SURELY), np.zeros(len(self.kind), dtype=bool)
+        lead[every[self._belongs(own, one, every)]] = -EVEN
+        same[every] = self._same_kind(own, one, every)
         bad = (distance < self.gap - SLACK) & (self.kind[j] != NAMED)
-        bad |= self._same_kind(own, one, j) & (distance < far[left[k]] + lead)
+        bad |= same[j] & (distance < far[left[k]] + lead[j])
         free[left] &= np.bincount(k, bad, len(left)) == 0
         return free
 
