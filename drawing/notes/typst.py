@@ -138,8 +138,9 @@ class Body:
         said, plan = packaged(__package__, "texts", language), _Plan(note.PAPER[1] - profile.bottom)
         figures = [(block, number) for block, number in note.numbered(blocks) if isinstance(block, Figure)]
         files = {f"{number}.svg": note.figure_svg(figure, language) for figure, number in figures}
+        told = _told(blocks, said)
         for _ in range(TRIES):
-            body = cls(_written(blocks, said, plan, profile), files, profile)
+            body = cls(_written(blocks, said, plan, profile, told), files, profile)
             if not plan.mend(blocks, body.marks(language)):
                 break
         return body
@@ -176,7 +177,15 @@ def _typst() -> Any:
     return typst
 
 
-def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan, profile: Profile) -> str:
+def _told(blocks: Sequence[Block], said: dict[str, str]) -> list[str]:
+    """Return the text of each block, wherever figures stand; nothing for these."""
+    return [
+        "" if isinstance(block, Figure) and not block.folded else _block(block, number, place, said)
+        for place, (block, number) in enumerate(note.numbered(blocks))
+    ]
+
+
+def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan, profile: Profile, told: Sequence[str]) -> str:
     texts = list[str]()
     for place, (block, number) in enumerate(note.numbered(blocks)):
         if isinstance(block, Figure) and not block.folded:
@@ -185,7 +194,7 @@ def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan, profile
             share = min(plan.shares.get(place, block.share), profile.wide / block.view.size[0])
             texts.append(_figure(replace(block, fitted=share), said, number, place, where))
         else:
-            texts.append(_block(block, number, place, said))
+            texts.append(told[place])
     for figure, number in note.numbered(blocks):
         if isinstance(figure, Figure) and figure.folded:  # on its sheet, with its number
             text = _figure(figure, said, number, -1, f'numbering: _ => "{number}", ')
