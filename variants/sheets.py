@@ -30,7 +30,6 @@ from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings, Wanted, positions_of
-from .crew import digest_of
 from .reader import load_task
 from .tables import picture
 from .task import AnyTask, Task
@@ -460,6 +459,8 @@ def scan_code(case: Case, number: int, page: Page) -> str:
     Machines that differ in the last digits of their numbers print the same; those are 1/e mm apart that count as
     others, which no size of a drawing is rounded to.
     """
+    from .crew import digest_of  # loads what starts processes: other sheets do without
+
     printed = [shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "view"]
     digest = digest_of(_NUMBER.sub(lambda one: f"{round(float(one[0]) * math.e)} ", repr(printed)))[:DIGEST]
     identity = sheet_id(case.task, case.variant, case.settings)

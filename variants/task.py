@@ -21,7 +21,6 @@ from ..scales.numbers import quote
 from ..scales.scale import AS_INSIDE, Display
 from ..scales.units import Unit, bounded, parse
 from .shelf import bundled_text
-from .spreadsheets.grid import variant_said
 
 if TYPE_CHECKING:
     from ..plans.cams.cam import Cam
@@ -192,14 +191,16 @@ class Task:
         if variant_id is None:
             return next(iter(self.variants.values()))
         said = str(variant_id).strip()
-        found = [said] if said in self.variants else self._meant(variant_said(said))
+        found = [said] if said in self.variants else self._meant(said)
         if len(found) != 1:
             raise unknown("variant-unknown", variant_id, self.variants, task=self.id)
         return self.variants[found[0]]
 
     def _meant(self, said: str) -> list[str]:
         """Return the ids of the variants with the number of another id, and its letters where they say more."""
-        if (one := _NUMBERED.fullmatch(said)) is None:
+        from .spreadsheets.grid import variant_said  # most are asked for by their own id
+
+        if (one := _NUMBERED.fullmatch(variant_said(said))) is None:
             return []
         letters = latin(one[1]).lower(), one[1].lower()
         found = []
