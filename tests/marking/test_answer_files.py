@@ -112,7 +112,16 @@ def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, nam
     [
         ("bertyaev-six-bar", {"mu_a": "M_a", "mu_a_B": "M_a (B)"}),
         ("madi-four-bar", {"mu_F_23": "μ_p (2, 3)", "mu_F_1": "μ_p (1)"}),
-        ("scheme-15-lever-shears", {"h_G_4": "h_G4", "h_lever_G_4": "h_G4 (lever)", "F_i4_couple": "F′_i4 = F″_i4"}),
+        (
+            "scheme-15-lever-shears",
+            {
+                "m_2": "m_2",
+                "h_2": "h_2",
+                "h_G_4": "h_G4",
+                "h_lever_G_4": "h_G4 (lever)",
+                "F_i4_couple": "F′_i4 = F″_i4",
+            },
+        ),
     ],
 )
 def test_no_two_lines_of_a_form_look_alike(tmp_path: Path, task: str, told: dict[str, str]) -> None:

@@ -92,12 +92,14 @@ class ClassPage:
     def _table(self) -> str:
         """Return a row for each student: mark, first wrong step, mistakes in words, what is to be checked."""
         said, language = self.said, self.request.language
-        keys = "about.student", "about.group", "about.variant", "class.mark", "class.first", "report.candidates"
+        grouped = any(line.who.group for line in self.lines)
+        whose = ("about.student", *["about.group"] * grouped, "about.variant")
+        keys = *whose, "class.mark", "class.first", "report.candidates"
         shown_heads = "".join(f"<th>{escape(head)}</th>" for head in heads((*keys, "report.flags"), language))
         rows = list[str]()
         names = names_of(self.lines, language)
         for name, line, flags in zip(names, self.lines, flags_of(self.lines, language), strict=True):
-            about = escape(name), escape(line.who.group), escape(line.variant)
+            about = (escape(name), *[escape(line.who.group)] * grouped, escape(line.variant))
             if isinstance(line, Entry):
                 cells, kind = (*about, "–", escape(said["class.absent"]), "", ""), "absent"
             else:
@@ -107,7 +109,7 @@ class ClassPage:
                 cells = *about, mark, scripts(line.first), scripts(told), escape("; ".join((*flags, *notes)))
                 kind = "flag" if flags or notes else ""
                 kind = "absent" if line.empty else kind
-            shown = "".join(f"<td{' class=m' if at == 3 else ''}>{cell}</td>" for at, cell in enumerate(cells))
+            shown = "".join(f"<td{' class=m' if at == len(about) else ''}>{cell}</td>" for at, cell in enumerate(cells))
             rows.append(f'<tr class="{kind}"><td>{len(rows) + 1}</td>{shown}</tr>')
         return f"<table><tr><th>№</th>{shown_heads}</tr>{''.join(rows)}</table>"
 

@@ -21,12 +21,10 @@ def texts(language: str) -> dict[str, str]:
 def plain(markup: str) -> str:
     """Return markup as plain text.
 
-    >>> plain("a^{n}_{BA}"), plain("s_{2}")
-    ('a^n_BA', 's2')
+    >>> plain("a^{n}_{BA}"), plain("h_{21}")
+    ('a^n_BA', 'h_21')
     """
-    text = re.sub(r"\\bar\{([^{}]*)\}", r"\1", markup)
-    text = re.sub(r"(?<![A-Z])([a-z]′*)_\{(\d+)\}$", r"\1\2", text)
-    return re.sub(r"[{}]", "", text)
+    return re.sub(r"[{}]", "", re.sub(r"\\bar\{([^{}]*)\}", r"\1", markup))
 
 
 def script_runs(text: str) -> Iterator[tuple[str, int]]:
@@ -56,6 +54,11 @@ def mistake_texts(language: str) -> dict[str, str]:
 
 
 def letter(words: Words, mark: str) -> str:
-    """Return the letter of a mark on a plan; at a point whose motion is split marks have none of their own."""
+    """Return the letter of a mark on a plan, its number beside it: s2.
+
+    At a point whose motion is split marks have none of their own.
+    """
     name = role(mark)
-    return name.of if name.plan.kind in (VELOCITY, ACCELERATION) else plain(words.mark(mark))
+    if name.plan.kind in (VELOCITY, ACCELERATION):
+        return name.of
+    return plain(re.sub(r"(?<![A-Z])([a-z]′*)_\{(\d+)\}$", r"\1\2", words.mark(mark)))
