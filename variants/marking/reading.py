@@ -357,7 +357,7 @@ def _form(grid: Grid, header: int, kinds: Mapping[str, int], asked: Asked) -> An
     for row in range(header + 1, len(grid.rows)):
         _form_row(sheet, row, kinds, columns)
     if not sheet.lines and not sheet.problems:
-        raise InputError("answers-none", file=quote(grid.file, SHOWN))
+        raise LocatedError(quote(grid.file, SHOWN), InputError("answers-none"))
     sheet.put_in_place(grid.place(header))
     return sheet.answers(grid.file, about)
 

@@ -317,8 +317,11 @@ def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str
             if column < len(rows[row]):
                 rows[row][column] = text
     Path("answers.csv").write_bytes(csv_table(rows, asked.language))
-    (answers,) = ready.read("answers.csv")
     symbols = {row[0]: row[1] for row in rows if len(row) > 1}
+    try:
+        (answers,) = ready.read("answers.csv")
+    except LocatedError as error:  # all cells are empty
+        raise _about_quantity(error, symbols) from error
     problems = tuple(_about_quantity(problem, symbols) for problem in answers.problems)
     return report_html(ready.mark(replace(answers, source="", problems=problems)))
 
