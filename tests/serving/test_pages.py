@@ -98,7 +98,10 @@ def test_data_of_ones_own_go_on_to_all_files_and_to_another_variant(client: Test
     assert "-5" in refused
 
 
-@pytest.mark.parametrize("file", ["handout.pdf", "key.svg", "note.md", "form.xlsx", "roster.csv", "moving.html"])
+FILES = "handout.pdf", "key.svg", "note.md", "form.xlsx", "roster.csv", "moving.html", "positions.pdf", "charts.svg"
+
+
+@pytest.mark.parametrize("file", FILES)
 def test_what_belongs_to_a_sheet_can_be_saved(file: str, client: TestClient) -> None:
     answer = client.get(f"/task/{TASK}/{file}?v=3")
 
@@ -106,6 +109,15 @@ def test_what_belongs_to_a_sheet_can_be_saved(file: str, client: TestClient) -> 
     assert len(answer.content) > 50
     policy = answer.headers["content-security-policy"]
     assert "unsafe-inline" not in policy.partition("style-src-attr")[0] or "sandbox" in policy
+
+
+def test_the_whole_cycle_can_be_saved_and_is_drawn_of_linkages(client: TestClient) -> None:
+    own = kulman.sweep(TASK, "7", set={"l_OA": "55 mm"}).csv("en")
+    offered = {task: client.get(f"/task/{task}").text for task in (TASK, "madi-gear")}
+
+    assert client.get(f"/task/{TASK}/cycle.csv?v=7&of=7&g.l_OA=55").text == own
+    assert client.get("/task/madi-gear/cycle.csv").status_code == 200
+    assert ["positions.pdf" in page for page in offered.values()] == [True, False]
 
 
 @pytest.mark.parametrize("language", ["uk", "ru", "en"])

@@ -22,6 +22,7 @@ from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ..batches.batch import batch, write_roster
 from ..case import Kind, Request, kind_of
+from ..charts.charts import chart
 from ..crew import Advance, shared_out
 from ..drawings.files import SUFFIXES as DRAWINGS
 from ..kinds import MODULES
@@ -46,6 +47,7 @@ from ..shelf import bundled
 from ..solution import solve
 from ..spreadsheets.files import read_grid
 from ..spreadsheets.grid import SUFFIXES as TABLES
+from ..sweeps.sweeps import sweep
 from ..tables import csv_table
 from ..task import LocatedError, Task, decoded
 from .jobs import KEPT as KEEP
@@ -54,6 +56,8 @@ OWN = "task.toml"  # in the folder of the process
 ZIP = ".zip"
 LETTERS = ("format", "notation")
 HOW = (*LETTERS, "norm")
+TITLED = "student", "group", "teacher", "department", "date"  # of the title page of a note
+POSITIONS = 12  # of the sheet of a cycle
 LAST = 4  # sheets that a process keeps, for other kinds of files of them
 FIGURES = ("profile", "plate_profile", "meshing", "scheme")  # of subjects that have no scheme: the first that there is
 Rows = tuple[tuple[str, ...], ...]
@@ -159,30 +163,24 @@ def _request(asked: Asked, task: Task, *names: str) -> dict[str, Any]:
 _SHEETS: Kept[Sheet] = Kept(LAST)
 
 
+def _of(asked: Asked, function: Callable[..., Any], *names: str, **how: Any) -> Any:
+    task = asked.load()
+    return function(task, **_request(asked, task, *names), **how)
+
+
 def _sheet(asked: Asked) -> Sheet:
     task = asked.load()
     return _SHEETS.get(asked, lambda: sheet(task, **_request(asked, task, *HOW, *BLOCK)))
 
 
 def _handout(asked: Asked, **how: Any) -> Sheet:
-    task = asked.load()
-    return handout(task, **_request(asked, task, *HOW, *BLOCK), **how)
+    drawn: Sheet = _of(asked, handout, *HOW, *BLOCK, **how)
+    return drawn
 
 
 def _check(asked: Asked, **more: Any) -> Check:
-    task = asked.load()
-    return check(task, **_request(asked, task, *LETTERS), **more)
-
-
-def _note(asked: Asked, name: str) -> list[Path]:
-    task = asked.load()
-    titled = "student", "group", "teacher", "department", "date"
-    return note(task, **_request(asked, task, *LETTERS, *titled)).save(name)
-
-
-def _results(asked: Asked, name: str) -> list[Path]:
-    task = asked.load()
-    return solve(task, **_request(asked, task, *LETTERS)).save(name)
+    ready: Check = _of(asked, check, *LETTERS, **more)
+    return ready
 
 
 # what can be downloaded, by the stem of its name: saved under a name
@@ -191,8 +189,11 @@ SAVED: Mapping[str, Callable[[Asked, str], list[Path]]] = {
     "handout": lambda asked, name: _handout(asked).save(name),
     "scan": lambda asked, name: _handout(asked, scan=True).save(name),
     "key": lambda asked, name: _handout(asked, key=True).save(name),
-    "note": _note,
-    "results": _results,
+    "positions": lambda asked, name: _of(asked, sheet, *HOW, *BLOCK, positions=POSITIONS).save(name),
+    "note": lambda asked, name: _of(asked, note, *LETTERS, *TITLED).save(name),
+    "results": lambda asked, name: _of(asked, solve, *LETTERS).save(name),
+    "cycle": lambda asked, name: _of(asked, sweep, "notation").save(name),
+    "charts": lambda asked, name: _of(asked, chart, "notation").save(name),
     "form": lambda asked, name: [_check(asked).write_form(name)],
     "roster": lambda asked, name: [write_roster(asked.load(), name, asked.language)],
 }
@@ -202,8 +203,11 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "handout": DRAWN,
     "scan": (".pdf", ".png", ".svg"),
     "key": DRAWN,
+    "positions": DRAWN,
     "note": (".pdf", ".docx", ".md"),
     "results": (".xlsx", ".csv", ".json"),
+    "cycle": (".xlsx", ".csv", ".json"),
+    "charts": (".pdf", ".svg"),
     "form": (".xlsx", ".csv"),
     "roster": (".xlsx", ".csv"),
 }

@@ -29,7 +29,8 @@ NORMS = ("gost", "iso")
 # what files end in that are sent
 TABLES, DRAWINGS, PHOTOS, TOML = ".csv,.xlsx", ".dxf,.svg,.pdf", ".jpg,.jpeg,.png", ".toml"
 # of files: what must be seen for them, else forms
-SEEN = {"sheet": "sheets", "moving": "sheets", "key": "answers", "note": "answers", "results": "answers"}
+SEEN = dict.fromkeys(("sheet", "moving", "positions"), "sheets")
+SEEN |= dict.fromkeys(("key", "note", "results", "cycle", "charts"), "answers")
 VOID = {"img", "input", "link", "meta"}
 
 
@@ -283,7 +284,7 @@ def _downloads(door: Door, place: Place, shown: Shown) -> Html:
     rows = list[Html]()
     for stem, kinds in door.kinds.items():
         hidden = (stem == "moving" and not shown.moves) or (stem == "roster" and door.role == STUDENT)
-        hidden |= stem == "scan" and not shown.read
+        hidden |= stem in ("scan", "positions") and not shown.read
         if hidden or not door.sees(SEEN.get(stem, "forms")):
             continue
         files = (
