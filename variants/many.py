@@ -223,10 +223,11 @@ def _in_si(given: Given, value: Any) -> Array:
         own, of = value
     one = converted(1.0, unit(of), given.unit)
     try:
-        plain = np.asarray(own, float)
+        plain = np.asarray(own)
+        plain = plain.astype(float, casting="unsafe" if plain.dtype == object else "same_kind")  # no complex, no text
         array = plain * one
     except (TypeError, ValueError):
-        raise InputError("type-quantity", expected=given.unit.si.name) from None
+        raise InputError("type-quantity-array", expected=given.unit.si.name, other=Written(given.unit.name)) from None
     if not array.size:
         raise InputError("arrays-shapes", text=f"{array.shape}")
     least, most = int(np.argmin(array)), int(np.argmax(array))

@@ -398,3 +398,9 @@ def test_a_report_has_its_mark_and_is_text_or_files(tmp_path: Path) -> None:
     assert page.read_text("utf-8").startswith("<!DOCTYPE html>")
     with pytest.raises(KulmanError, match="a marked drawing can be written only for one drawing of one student"):
         report.save(tmp_path / "report.pdf")
+
+
+def test_what_changes_nothing_on_a_chart_is_told_by_the_name_of_the_argument() -> None:
+    said = kulman.chart(TASK, chart="stability", quantities="V_B", positions=4, tolerance=5).warnings
+
+    assert [str(one) for one in said] == ["tolerance changes nothing on charts of this kind: stability"]

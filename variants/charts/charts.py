@@ -396,7 +396,7 @@ def chart(
     made, warnings = names or tuple(gallery), list[KulmanError]()
     for name, other in changed.items():
         if other and not any(name in gallery[each][1] for each in made):
-            warnings.append(InputError("chart-unused", name=name, charts=", ".join(made)))
+            warnings.append(InputError("chart-unused", name=f"--{name}", charts=", ".join(made)))
     found: dict[str, Chart[Any]] = {}
     for name in made:
         try:

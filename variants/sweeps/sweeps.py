@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.solved import Columned, Course, Ends
-from ...scales.errors import InputError, Option
+from ...scales.errors import InputError, Option, Written
 from ...scales.names import of_its_kinds
 from ...scales.numbers import quote
 from ...scales.units import SHOWN, unit
@@ -93,7 +93,8 @@ class CourseSweep(Swept):
 
             return [(path, outlined(outlines))]
         if path.suffix.lower() not in FILES:
-            raise InputError("sweep-drawing", task=quote(self.task.id), file=quote(path.name))
+            known = ", ".join((*FILES, *((CUT,) if self.course.outlines() else ())))
+            raise InputError("sweep-drawing", task=quote(self.task.id), known=Written(known), file=quote(path.name))
         return Result._files(self, path, drawn)
 
     def __repr__(self) -> str:
