@@ -256,8 +256,8 @@ def _said(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return {language: read.get(language, said) for said in [*read.values()][:1] for language in LANGUAGES}
 
 
-def _source(checker: Checker, path: Path, raw: object) -> Any:
-    """Read where numbers come from: in a text for all languages, or in a language or more."""
+def _in_languages(checker: Checker, path: Path, raw: object) -> Any:
+    """Read the title, or where numbers come from: in a text for all languages, or in a language or more."""
     if not isinstance(raw, str):
         return _said(checker, path, raw)
     return dict.fromkeys(LANGUAGES, said) if (said := text(checker, path, raw)) else None
@@ -270,9 +270,9 @@ _IN_UNITS = {
 _FIELDS = {  # and the table of its kind
     "id": Field(label),
     "number": Field(whole_number, required=False),
-    "source": Field(_source),
+    "source": Field(_in_languages),
     "notation": Field(one_of("notation-unknown", notations)),
-    "title": Field(_said),
+    "title": Field(_in_languages),
     "note": Field(_said, required=False),
     "givens": Field(as_is),
     "choices": Field(as_is, required=False),

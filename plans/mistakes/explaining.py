@@ -175,7 +175,12 @@ class _Search:
         return _Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
 
     def _tells(self, candidate: Candidate) -> bool:
-        """Whether a candidate explains more than it leaves: some mistake gives nearly any one number by chance."""
+        """Whether a candidate explains more than it leaves, and no fewer lines than it has mistakes.
+
+        Some mistake gives nearly any one number by chance, and a chain of mistakes whatever one likes.
+        """
+        if len(candidate.mistakes) > len(candidate.explained):
+            return False
         left = sum(not self.faulty.get(name, 0.0) <= CLEAR for name in candidate.left)
         return len(candidate.explained) > left or (len(candidate.explained) == left and candidate.misses <= CLOSELY)
 

@@ -132,6 +132,8 @@ def test_a_title_and_a_source_in_one_language_do_for_all(tmp_path: Path) -> None
 
     assert {task.title[language] for language in ("uk", "ru", "en")} == {load_task("nau-slider-crank").title["uk"]}
     assert {*task.source.values()} == {"свої дані"}
+    own.write_text(re.sub(r"(?ms)^\[title\]\n.*?\n\n", 'title = "Shaper"\n\n', text), encoding="utf-8")
+    assert {*load_task(own).title.values()} == {"Shaper"}
     assert len({*load_task("nau-slider-crank").source.values()}) == 3
 
 

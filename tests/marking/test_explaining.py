@@ -141,6 +141,18 @@ def test_digits_are_exchanged_where_the_other_order_is_the_number_that_was_meant
         assert [*(marked.candidates[0].ids if marked.candidates else ())] == ids
 
 
+def test_unlike_slips_are_not_explained_by_a_chain_of_more_mistakes_than_lines() -> None:
+    right = solve(EXAMPLE, "3", only="velocity,acceleration")
+    said = {name: f"{one.value:.4g} {one.unit}" for name, one in right.items() if one.value is not None}
+    slips = {"V_BA": "3.429 m/s", "omega_2": "-15.7 rad/s", "a_BA_n": "142 m/s^2"}
+    asked = check(EXAMPLE, "3", only="velocity,acceleration")
+
+    marked = asked.mark({name: text for name, text in (said | slips).items() if name in asked.asked.names}).marked
+
+    assert marked.marking.first_wrong == "V_BA"
+    assert [[one.mistake for one in found.mistakes] for found in marked.candidates] == []
+
+
 def test_right_answers_have_no_explanation() -> None:
     for task in FEW:
         assert explained(task, right_answers(key(task))).candidates == ()
