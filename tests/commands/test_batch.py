@@ -195,6 +195,10 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
     layers = [(out / name).read_bytes().count(b"/Type /OCG") for name in ("handouts.pdf", "002-Bohdan-3-handout.pdf")]
     assert layers[0] == layers[1] > 0  # those of one name are one
 
+    batch(TASK, file, out, kinds=["handout"], only="velocity", jobs=1)
+
+    assert [name for name in merged if (out / name).exists()] == []  # they would not follow what is there now
+
 
 @pytest.mark.parametrize(
     ("task", "variant"),

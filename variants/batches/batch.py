@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
@@ -286,9 +286,9 @@ Crew = Callable[[Begin[Student, Outcome], list[Student]], Iterator[list[Done[Out
 
 
 def _run(
-    making: _Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance
+    making: _Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance, merged: Collection[str]
 ) -> tuple[Outcome, ...]:
-    """Make what is not there yet; write it, and note it, as it comes."""
+    """Make what is not there yet; write it, and note it, as it comes; `merged` are files that are made of it later."""
     for of_kinds in (folder, folder / SOLUTIONS):
         sweep_parts(of_kinds, lambda name: _OWN.match(name) is not None)
     journal = Journal(folder / JOURNAL, Outcome.from_json)
@@ -309,7 +309,7 @@ def _run(
         advance(len(done), len(students))
     outcomes = tuple(found[number] for number in range(len(students)))
     before = (item for outcome in journal.before.values() for item in outcome.files.items())
-    remove_stale(folder, before, {name for outcome in outcomes for name in outcome.files}, _SUFFIXES)
+    remove_stale(folder, before, {*merged, *(name for outcome in outcomes for name in outcome.files)}, _SUFFIXES)
     journal.keep(zip(digests, outcomes, strict=True))
     return outcomes
 
@@ -422,7 +422,8 @@ def batch(
     else:  # an item may kill its process, which is not this one unless that is asked for
         alone = 0 if jobs != 1 else None
         crew = partial(shared_out, jobs=jobs or os.cpu_count() or 1, alike=alike, alone=alone, afresh=making.afresh)
-    outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None))
+    merged = {kind: f"{making.folder(kind)}{MERGED[kind]}" for kind in making.kinds if merge and kind in MERGED}
+    outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None), merged.values())
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
@@ -433,11 +434,14 @@ def batch(
     done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice))
     for name, rows in _tables(done, once, lang):
         _put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
-    for kind in making.kinds if merge else ():
-        if kind in MERGED and (files := [place / name for name in _of_kind(outcomes, kind)]):
-            _put(
-                place / f"{making.folder(kind)}{MERGED[kind]}", joined(on_leaves([file.read_bytes() for file in files]))
-            )
+    whole = dict[str, bytes]()
+    for kind, name in merged.items():
+        if files := [place / name for name in _of_kind(outcomes, kind)]:
+            whole[name] = joined(on_leaves([file.read_bytes() for file in files]))
+            _put(place / name, whole[name])
+    if whole:  # a later run without them removes them
+        noted = Outcome(files={name: digest_of(data) for name, data in whole.items()})
+        Journal(place / JOURNAL, Outcome.from_json).note("merged", noted)
     return done
 
 
