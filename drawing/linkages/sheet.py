@@ -153,8 +153,8 @@ def _kinematics(
 
 def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
     # a sheet without compound motion does not pay for the imports
-    from .compound import block_name, compound_lines
     from .figures.compound import ACCELERATIONS, VELOCITIES, acceleration_figure, velocity_figure
+    from .steps import block_name, compound_lines
 
     couplers = hinged(solved.mechanism, solved.structure)
 
