@@ -248,13 +248,8 @@ def _places(axes: Axes, found: Choice, words: Words) -> None:
             [found.given.beta_2, end.beta_2], [found.given.beta_0, end.beta_0], color=paper.BLACK, lw=1.2, zorder=4
         )
     for key, trial, marker, face in marked:
-        look: Any = {
-            "mfc": face,
-            "mec": paper.BLACK,
-            "mew": 1.0,
-            "ms": 11.0 if marker == "*" else 7.0,
-            "clip_on": False,
-        }
+        size = 11.0 if marker == "*" else 7.0
+        look: Any = {"mfc": face, "mec": paper.BLACK, "mew": 1.0, "ms": size, "clip_on": False}
         axes.plot(trial.beta_2, trial.beta_0, marker, zorder=5, label=words[f"chart.hoist.{key}"], **look)
     legend(axes, "upper left", bbox_to_anchor=(0.0, -0.075), ncols=3, borderaxespad=0.0)
 

@@ -329,15 +329,8 @@ def _spread(last: int, steps: int) -> list[int]:
 
 
 STAGES = stages(
-    "start",
-    "centres",
-    "rolling_circles",
-    "line_of_action",
-    "circles",
-    "active_line",
-    "teeth",
-    "lowest_points",
-    "single_contact",
+    *("start", "centres", "rolling_circles", "line_of_action", "circles"),
+    *("active_line", "teeth", "lowest_points", "single_contact"),
 )
 FIGURE = Figure(MESHING, _meshing_view, ("mu_l",), STAGES, "gear.meshing")
 NEAR = Figure("near", _near_view, ("near",), STAGES)  # told with the meshing

@@ -37,13 +37,9 @@ def moving(scene: HoistScene) -> Moving:
         _force("F_01", html(words.symbol("F_01")), "below"),
     ]
     xs, margin = [at.real for at in points.values()], 0.6 * tall
-    view = {
-        "name": "position",
-        "heading": words["moving.hoist"].format(n=ENLARGED),
-        "symbol": "",
-        "extent": [min(xs) - margin, -2.5 * tall, max(xs) + margin, rope + 2.0 * tall],
-        "shapes": shapes,
-    }
+    extent = [min(xs) - margin, -2.5 * tall, max(xs) + margin, rope + 2.0 * tall]
+    view: Data = {"name": "position", "heading": words["moving.hoist"].format(n=ENLARGED), "symbol": ""}
+    view |= {"extent": extent, "shapes": shapes}
     more: Data = {"again": end, "end": "end" if course.changeable else "", "grows": True, "crank": None}
     drive = driven("t", "t", (0.0, end), 1.0, **more, by=1.0, unit=words.unit("s"), digits=4)
     over, symbols = {"forces": [_moment(scene)]}, {"s": "s", "sigma": "σ"}

@@ -324,17 +324,9 @@ def figure_svg(figure: Figure, language: str) -> bytes:
 def framed_pages(document: Document) -> dict[str, Page]:
     """Return frames of pages of a text by their forms: of the first one bare, then with title blocks `2` and `2a`."""
     page, sheet = document.title, FORMATS["A4"]
-    stamp = Stamp(
-        title=page.title,
-        designation=page.designation,
-        organisation=page.department,
-        group=page.group,
-        student=page.student,
-        teacher=page.teacher,
-        date=page.date,
-        document_type=page.document_type,
-        language=document.language,
-    )
+    same = ("title", "designation", "group", "student", "teacher", "date", "document_type")
+    named = {name: getattr(page, name) for name in same}
+    stamp = Stamp(**named, organisation=page.department, language=document.language)
     forms = {form: text_frame(sheet, stamp, form) for form in ("", "2", "2a")}
     return {form: Page(sheet.width, sheet.height, forms[form], page.title, document.language) for form in forms}
 

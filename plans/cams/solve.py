@@ -116,16 +116,13 @@ SCALES = {
     construction.TRAVEL: "mu_s",
     construction.SIZES: "mu_s_ds",
     construction.PLATE_SIZES: "mu_s_d2s",
-    construction.ROCKER_SIZES: "mu_l",
-    construction.PROFILE: "mu_l",
-    construction.PLATE_PROFILE: "mu_l",
+    **dict.fromkeys((construction.ROCKER_SIZES, construction.PROFILE, construction.PLATE_PROFILE), "mu_l"),
 }
 # the plans with equal scale factors on both axes, and the factor of a diagram that is the finest for each
 EQUAL = {"mu_s_ds": "mu_s", "mu_s_d2s": "mu_d2s"}
 # the plan that shows a quantity as a segment, beside those that are read from one
 SHOWN_ON = {
-    "A_1": construction.ACCELERATION,
-    "A_2": construction.ACCELERATION,
+    **dict.fromkeys(("A_1", "A_2"), construction.ACCELERATION),
     "ds_max": construction.VELOCITY,
     "s_max": construction.TRAVEL,
     **dict.fromkeys(("r_0", "e", "s_0", "r_0_tangents", "e_tangents"), construction.SIZES),

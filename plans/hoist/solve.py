@@ -114,14 +114,8 @@ def _scale_factors(found: Numbers, layout: Layout, end: float, part_of: float = 
 
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
-SCALES = {
-    SCHEME: "mu_l",
-    FORCES: "mu_F",
-    LIFT_OFF: "mu_y",
-    EXTREMES: "mu_v",
-    CIRCLE: "mu_F_circle",
-    **dict.fromkeys(BENT.values(), "mu_w"),
-}
+SCALES = {SCHEME: "mu_l", FORCES: "mu_F", LIFT_OFF: "mu_y", EXTREMES: "mu_v", CIRCLE: "mu_F_circle"}
+SCALES |= dict.fromkeys(BENT.values(), "mu_w")
 ON_PAPER = (FORCES, LIFT_OFF, EXTREMES, *BENT.values())  # plans that are drawn in millimetres of paper
 # the plan that shows a quantity as a segment, the first of them that is drawn
 SHOWN_ON = {

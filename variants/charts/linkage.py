@@ -130,16 +130,9 @@ class _DepthChart(charts.Chart[Depth]):
         largest = {found.balance: {"value": found.largest_balance, "unit": unit_of(found.balance)}}
         if found.reaction:
             largest[found.reaction] = {"value": found.largest_reaction or 0.0, "unit": "N"}
-        return {
-            "balance": found.balance,
-            "reaction": found.reaction,
-            "largest": largest,
-            "tolerance": found.tolerance,
-            "needed": list(found.needed),
-            "spare": list(found.spare),
-            "spare_cost": found.together.worst,
-            "costs": [self._item(cost) for cost in found.costs],
-        }
+        data = {"balance": found.balance, "reaction": found.reaction, "largest": largest}
+        data |= {name: getattr(found, name) for name in ("tolerance", "needed", "spare")}
+        return data | {"spare_cost": found.together.worst, "costs": [self._item(cost) for cost in found.costs]}
 
     def _item(self, cost: Cost) -> dict[str, Any]:
         return {

@@ -21,13 +21,9 @@ if TYPE_CHECKING:
     from ...plans.gears.solve import SolvedGear
     from ...plans.marking.key import Question
 
-RULES = {  # checks that are told when they fail
-    "undercut": "gear-rule-undercut",
-    "interference": "gear-rule-interference",
-    "contact_ratio": "gear-rule-contact",
-    "contact_flanks": "gear-rule-flanks",
-    "tip": "gear-rule-tip",
-}
+# checks that are told when they fail
+RULES = {"undercut": "gear-rule-undercut", "interference": "gear-rule-interference", "tip": "gear-rule-tip"}
+RULES |= {"contact_ratio": "gear-rule-contact", "contact_flanks": "gear-rule-flanks"}
 BROKEN = {"contact_ratio": "gear-rule-broken", "contact_flanks": "gear-rule-flanks-broken"}  # of less than one pair
 IN_LENGTHS = ("interference", "tip")
 

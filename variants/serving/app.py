@@ -45,15 +45,9 @@ from .safety import STUDENT, Gate, Patient, doors_for, read_passwords
 
 CONNECTIONS = 300
 PORT = 8765
-TYPES = {
-    ".svg": "image/svg+xml",
-    ".pdf": "application/pdf",
-    ".png": "image/png",
-    ".html": "text/html; charset=utf-8",
-    ".css": "text/css; charset=utf-8",
-    ".js": "text/javascript; charset=utf-8",
-    ".zip": "application/zip",
-}
+TYPES = {".svg": "image/svg+xml", ".pdf": "application/pdf", ".png": "image/png", ".zip": "application/zip"}
+TEXTS = {".html": "html", ".css": "css", ".js": "javascript"}
+TYPES |= {suffix: f"text/{kind}; charset=utf-8" for suffix, kind in TEXTS.items()}
 STATIC = ("web.css", "web.js", "icon.svg")
 OWN = "own-"  # begins the names of task files of users in addresses
 PICTURE = "default-src 'none'; style-src 'unsafe-inline'; font-src data:; img-src data:; sandbox"

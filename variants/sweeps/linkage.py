@@ -148,23 +148,14 @@ class Sweep(Swept):
         names = _quantities_of(cycle, self.chosen)
         known = (point for point in _letters(cycle.mechanism) if point in cycle.values)
         points = [point for point in known if not self.chosen or point in self.chosen]
+        kind, unit_name = ("crank", "rad") if turns else ("slider", "m")
+        driver: dict[str, Any] = {"name": driver_name(cycle), "kind": kind, "unit": unit_name}
         return {
-            "driver": {
-                "name": driver_name(cycle),
-                "kind": "crank" if turns else "slider",
-                "unit": "rad" if turns else "m",
-                "sense": cycle.drive.sense,
-                "speed": cycle.speed,
-                "zero": cycle.zero,
-            },
+            "driver": driver | {"sense": cycle.drive.sense, "speed": cycle.speed, "zero": cycle.zero},
             "places": cycle.angles,
             "times": cycle.times,
             "statuses": cycle.statuses,
-            "points": {
-                name: {"unit": "m", **parts_of(cycle.values[name], point=True)}
-                for name in points
-                if name in cycle.values
-            },
+            "points": {name: {"unit": "m", **parts_of(cycle.values[name], point=True)} for name in points},
             "quantities": {name: {"unit": unit_of(name), **parts_of(cycle.values[name])} for name in names},
             "outputs": [_output_data(cycle, motion) for motion in cycle.motions],
             "extremes": {
