@@ -129,7 +129,7 @@ class Table:
                 return _xlsx_bytes((self.columns, *self.rows), self.title, (0,), 1)
             case ".html":
                 return self.html().encode("utf-8", "replace")
-        return csv_encoded(self.csv(), self.exact and self.language == "en")
+        return _csv_encoded(self.csv(), self.exact and self.language == "en")
 
 
 FILES: tuple[str, ...] = (".csv", ".xlsx", ".json", ".html")  # of every result
@@ -317,7 +317,7 @@ class Arrays(OfCase):
 
     def _file(self, suffix: str) -> bytes:
         if suffix.lower() == ".csv":
-            return csv_encoded(self.csv(), self.words.language == "en")
+            return _csv_encoded(self.csv(), self.words.language == "en")
         return Result._file(self, suffix)
 
     def to_json(self) -> dict[str, Any]:
@@ -452,7 +452,7 @@ def _csv_text(
     return stream.getvalue()
 
 
-def csv_encoded(text: str, plain: bool) -> bytes:
+def _csv_encoded(text: str, plain: bool) -> bytes:
     """Return CSV as a file: spreadsheets know UTF-8 by the mark at its beginning, `plain` numbers need none."""
     return text.encode("utf-8" if plain else "utf-8-sig", "replace")
 

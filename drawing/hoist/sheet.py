@@ -28,7 +28,7 @@ TABLES = 4e4
 HoistFigure = Figure[HoistScene]
 
 
-def ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float, ...]:
+def _ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float, ...]:
     """Return the values of a scale factor that may be chosen, one of `UNITS`, the one wanted first.
 
     Where nothing is said, scheme and circle are as large as they may be, the circle as the scheme leaves room.
@@ -43,7 +43,7 @@ def ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float,
         wanted = next(mu for mu in steps(max(span / SPAN, rope / ROPE)) if scheme(mu) <= LARGEST)
     else:
         largest = 2.0 * solved.size("R")
-        left = BOTH - scheme(ladder(solved, choosers, SCALES[SCHEME])[0])
+        left = BOTH - scheme(_ladder(solved, choosers, SCALES[SCHEME])[0])
         diameter = min(DIAMETER, max(left, BOTH - LARGEST) ** 0.5 - ABOUT_CIRCLE)
         wanted = steps(max(largest, LEAST * solved.size("P_m")) / diameter)[0]
     chooser = choosers.get(symbol, From(wanted))
@@ -56,7 +56,7 @@ def ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float,
 def first_scales(solved: SolvedHoist, choosers: Choosers, plans: Sequence[str]) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan: those of the diagrams are known."""
     symbols = solved.scale_of_plan
-    mus = {symbol: ladder(solved, choosers, symbol)[0] for symbol in symbols.values() if symbol in UNITS}
+    mus = {symbol: _ladder(solved, choosers, symbol)[0] for symbol in symbols.values() if symbol in UNITS}
     found = {plan: scale_of(solved, symbol, mus) for plan, symbol in symbols.items()}
     return smallest((TABLES, *(AREAS[plan] for plan in plans))), found
 
@@ -67,7 +67,7 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
     first_scales = staticmethod(first_scales)
 
     def __init__(self, contents: SheetContents[SolvedHoist]) -> None:
-        chosen = {symbol: ladder(contents.solved, contents.choosers, symbol) for symbol in UNITS}
+        chosen = {symbol: _ladder(contents.solved, contents.choosers, symbol) for symbol in UNITS}
         self._solved = {1.0: contents.solved}
         super().__init__(contents, lettered(contents.words, contents.solved), {**chosen, "part": PARTS})
 

@@ -31,7 +31,7 @@ NORMAL_TO = "⊥"
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
-class Scales(dict[str, Scale]):
+class _Scales(dict[str, Scale]):
     """Scale factors by plan that note which of them a figure has `used`."""
 
     def __init__(self, scales: Mapping[str, Scale]) -> None:
@@ -63,7 +63,7 @@ class Scene(SubjectScene[SolvedLinkage]):
         for used, made in before:
             if all(self.scales[plan] == scale for plan, scale in used.items()):
                 return made  # type: ignore[no-any-return]
-        watched = Scales(self.scales)
+        watched = _Scales(self.scales)
         made = make(replace(self, scales=watched))
         before.append(({plan: self.scales[plan] for plan in watched.used}, made))
         return made

@@ -64,7 +64,7 @@ class Contents(SheetContents[SolvedLinkage]):
     variant: str = ""  # as the statement of a task calls it
 
 
-def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
+def _figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
     """Go through the figures of a sheet in the order of the work; lines of text are at most `width` long.
 
     The ladders of a figure are the scale factors that size it; vectors that stand on the mechanism have two.
@@ -227,7 +227,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
 
     Raises InputError: a plan cannot fit at the scale factor that was asked for; it names what would fit.
     """
-    fitting, fewest = Fitting(contents), None
+    fitting, fewest = _Fitting(contents), None
     # on paper of which printers do not reach the edges plans are as large as on the whole of it
     whole = None if sheet is None else FORMATS[sheet.letters]
     if sheet is not None and whole is not None and (blank := _as_blank(contents, whole)) is not None:
@@ -255,7 +255,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
             return drawn
         rungs = found[1]
     if sheet is not None and sheet != whole:
-        fitting = Fitting(contents, stated=True)
+        fitting = _Fitting(contents, stated=True)
         stated = _stated(fitting, sheet, rungs)
         if stated is None:
             raise InputError("sheet-too-small", format=sheet.name)
@@ -263,13 +263,13 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     return _composed(fitting, (views, rungs, places), way, smaller=sheet is None)
 
 
-def _composed(fitting: Fitting, found: Found, sheet: Format, smaller: bool = False) -> Drawn:
+def _composed(fitting: _Fitting, found: Found, sheet: Format, smaller: bool = False) -> Drawn:
     contents, (views, rungs, places) = fitting.contents, found
     goes_on = contents.words["heading.continued"]
     return compose(views, places, fitting.scales(rungs), sheet, contents.norm, goes_on, smaller=smaller)
 
 
-def _enlarged(fitting: Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
+def _enlarged(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
     """Draw several pages; where some are too empty plans are larger, as long as that helps and takes no page more."""
     drawn = _composed(fitting, found, sheet)
     ladders = fitting.extents.ladders
@@ -287,14 +287,14 @@ def _enlarged(fitting: Fitting, sheet: Format, found: Found) -> tuple[Found, Dra
     return found, drawn
 
 
-def _as_blank(contents: Contents, sheet: Format) -> tuple[Fitting, Found] | None:
+def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | None:
     """Place a blank of few plans on a leaf: at the scale factors that `solve` shows, or at the next ones.
 
     Its statement is on the first page. The sheet on the same format has these scale factors, too.
     """
     if sheet.letters != SIZES[0] or not {*contents.plans} <= {POSITION, *PLANS} or contents.cycle or contents.dead:
         return None
-    fitting = Fitting(contents, stated=True)
+    fitting = _Fitting(contents, stated=True)
     _, wanted, _ = next(ways_of(fitting.extents, None))
     ladders = fitting.extents.ladders
     own = {fitting.extents.root(contents.solved.scale_of_plan[plan]) for plan in contents.plans}
@@ -308,7 +308,7 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[Fitting, Found] | None
     return None
 
 
-def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+def _on_a_page(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     """Try one page."""
     views, taken = fitting.fitted(sheet, rungs)
     page = [view.size for view in views], sheet, fitting.contents.norm, begins_of(views)
@@ -316,7 +316,7 @@ def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     return None if places is None else (views, taken, places)
 
 
-def _stated(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     """Place the statement of the task before the work: on one page, on two, or on as many as they take.
 
     Of two the first has the statement, the second one the plans, their tables and as many texts as it has room for.
@@ -350,7 +350,7 @@ def _begins(views: Sequence[View]) -> list[int]:
     return found
 
 
-def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs, count: int) -> Found | None:
+def _on_pages(fitting: _Fitting, sheet: Format, rungs: Rungs, count: int) -> Found | None:
     """Place the views on `count` pages, or on more: forces begin on one of their own where that leaves none half empty.
 
     They come in reading order, the larger ones smaller if the first page cannot hold them; where a fixed plan is too
@@ -380,7 +380,7 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs, count: int) -> Foun
     return None if places is None else (views, taken, places)
 
 
-class Fitting:
+class _Fitting:
     """Builds the views of `contents` for any format, each only once; `extents` is what figures take up.
 
     With `stated` they follow the statement of the task, and tables have rows to be written in.
@@ -453,7 +453,7 @@ class Fitting:
         found = self._found.setdefault(sheet.name, {})
         scene = Scene(solved, words, style, contents.givens, self.scales(rungs), self.runs, found=found)
         built = []
-        for figure in figures(contents, text_width):
+        for figure in _figures(contents, text_width):
             if self.stated and figure.name == DATA:
                 continue
             # of two scale factors the one with the longer lines makes the figure as large as it is

@@ -251,7 +251,7 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
     if times != 1.0:
         sheets = _shrunk(sheets, times)
         found = _recognised(sheets, keyed)
-    sheets, found = replace(sheets, believed=found.vectors), sure(sheets, keyed, found)
+    sheets, found = replace(sheets, believed=found.vectors), _sure(sheets, keyed, found)
     mus = {plan: sheets.blank.mus[plan] for plan in found.plans}
     return sheets, Seen(found, mus, _printed(sheets.blank))
 
@@ -454,7 +454,7 @@ def settled(sheets: Sheets, keyed: Keyed, found: Seen, told: Mapping[str, Ends |
     return Seen(Recognised(plans, vectors, tuple(dict.fromkeys(missing))), mus, _printed(blank) & {*mus})
 
 
-def sure(sheets: Sheets, keyed: Keyed, found: Recognised) -> Recognised:
+def _sure(sheets: Sheets, keyed: Keyed, found: Recognised) -> Recognised:
     """Return what was recognised without what is not sure, which is then missing.
 
     A plan must begin at its printed pole; a vector must be drawn in pencil; one that is wrong must not be there as it

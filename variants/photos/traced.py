@@ -278,7 +278,7 @@ def ends_at(pencil: Pencil, tail: complex, tip: complex, other: complex) -> bool
     return here >= POINTED and there <= BARE
 
 
-class Wings(NamedTuple):
+class _Wings(NamedTuple):
     """How dark, against their line, wings of an arrowhead may be: `both` of them, the `faint` and the `dark` side.
 
     NaN where other lines hide them. No wing of an arrowhead is faint; other lines, letters may be dark on both sides.
@@ -289,7 +289,7 @@ class Wings(NamedTuple):
     dark: float
 
 
-def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: Iterable[Ends]) -> Wings:
+def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: Iterable[Ends]) -> _Wings:
     """Return how dark wings of an arrowhead at a tip are."""
     size, pairs, sides = abs(tip - tail), list[float](), (list[float](), list[float]())
     unit = (tip - tail) / size
@@ -310,7 +310,7 @@ def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: It
             own += mean[count >= FEWEST].tolist()
         pairs += (least := np.minimum(*both))[~np.isnan(least)].tolist()
     seen = [max(own) for own in sides if own] or [math.nan]
-    return Wings(max(pairs, default=math.nan), min(seen), max(seen))
+    return _Wings(max(pairs, default=math.nan), min(seen), max(seen))
 
 
 def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
