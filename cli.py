@@ -28,8 +28,8 @@ from .scales.names import unknown
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
 from .variants.commands import console, helping
+from .variants.commands.console import settings
 from .variants.commands.helping import Group
-from .variants.commands.settings import settings
 from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
 

@@ -23,7 +23,7 @@ from kulman.scales.kept import Kept
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 from kulman.variants import sheets
 from kulman.variants.case import Case, Request
-from kulman.variants.commands.settings import PLACE
+from kulman.variants.commands.console import PLACE
 from kulman.variants.marking.keyed import Keyed
 from kulman.variants.photos import reading
 from kulman.variants.photos.pictures import Photo

@@ -11,8 +11,8 @@ import pytest
 from kulman import cli
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
+from kulman.variants.commands.console import PARAMETERS, PLACE, _settings_file
 from kulman.variants.commands.guides import guide
-from kulman.variants.commands.settings import PARAMETERS, PLACE, _settings_file
 
 TASK = "nau-slider-crank"
 

@@ -47,7 +47,7 @@ def digest(case: str, kept: Path | None = None) -> str:
     """Run a case and hash what comes of it; write that into the folder `kept`, too, where one is given."""
     from kulman import cli
     from kulman.scales.errors import VARIABLE
-    from kulman.variants.commands.settings import PLACE
+    from kulman.variants.commands.console import PLACE
 
     out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="") for _ in range(2))
     streams, shell = (
