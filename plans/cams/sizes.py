@@ -30,22 +30,8 @@ import numpy as np
 
 from ...scales.errors import InputError
 from ..laws import cross, dot
+from . import followers
 from .cam import Cam
-from .followers import (
-    PHASE_OF,
-    RIGHT_ANGLE,
-    Limit,
-    Limits,
-    PlateCam,
-    PlateProfile,
-    PlateSizes,
-    Range,
-    Rocker,
-    RollerCam,
-    RollerProfile,
-    Sizes,
-    Straight,
-)
 from .motion import Array, Extreme, Function, Motion, least, minima, motion_of
 
 PARALLEL = 1e-13  # sine of the angle between lines below which they do not meet
@@ -88,13 +74,13 @@ def _meeting(first: HalfPlane, second: HalfPlane) -> complex | None:
     return (second.normal * first.least - first.normal * second.least) * complex(0.0, -1.0 / sine)
 
 
-def _nearest(planes: Sequence[HalfPlane]) -> Sizes | None:
+def _nearest(planes: Sequence[HalfPlane]) -> followers.Sizes | None:
     """Return the sizes with the least r_0 in all half planes, None when they have no place in common.
 
     The place is the origin, a foot of the perpendicular on one line, or where two lines meet: the region is convex.
     """
     if all(plane.least <= 0.0 for plane in planes):
-        return Sizes(0.0, 0.0, 0.0)
+        return followers.Sizes(0.0, 0.0, 0.0)
     size = max(abs(plane.least) for plane in planes)
     feet = (plane for plane in planes if plane.least > 0.0)
     corners: list[Corner] = [(plane.normal * plane.least, (plane,)) for plane in feet]
@@ -109,13 +95,13 @@ def _nearest(planes: Sequence[HalfPlane]) -> Sizes | None:
     return None if nearest is None else _sizes_at(nearest)
 
 
-def _sizes_at(corner: Corner) -> Sizes:
+def _sizes_at(corner: Corner) -> followers.Sizes:
     """Return the sizes of the cam whose roller is at e + i s_0 in its lowest place."""
     place, on = corner
-    return Sizes(abs(place), place.real, place.imag, tuple(plane.name for plane in on))
+    return followers.Sizes(abs(place), place.real, place.imag, tuple(plane.name for plane in on))
 
 
-def wedge(motion: Motion, limits: Limits, sense: int = 1) -> tuple[HalfPlane, ...]:
+def wedge(motion: Motion, limits: followers.Limits, sense: int = 1) -> tuple[HalfPlane, ...]:
     """Return the half planes of the e + i s_0 that each limit permits; `sense` is +1 of a counter-clockwise cam."""
     planes = []
     for limit in limits.each:
@@ -125,14 +111,14 @@ def wedge(motion: Motion, limits: Limits, sense: int = 1) -> tuple[HalfPlane, ..
     return tuple(planes)
 
 
-def _smallest_roller(planes: Sequence[HalfPlane]) -> Sizes:
+def _smallest_roller(planes: Sequence[HalfPlane]) -> followers.Sizes:
     """Return the sizes with the least r_0 that the half planes of `wedge` permit."""
     sizes = _nearest(planes)
     assert sizes is not None, "half planes that all open upwards have places in common"
     return sizes
 
 
-def apex(planes: Sequence[HalfPlane]) -> Sizes:
+def apex(planes: Sequence[HalfPlane]) -> followers.Sizes:
     """Return the sizes of the cam whose centre is the apex, where the tangents meet: not always the smallest.
 
     With limits on both sides, the apex of the two that bind: the lowest place permitted.
@@ -142,19 +128,19 @@ def apex(planes: Sequence[HalfPlane]) -> Sizes:
     return _sizes_at(max(corners, key=lambda corner: corner[0].imag))
 
 
-def central(planes: Sequence[HalfPlane], e: float = 0.0) -> Sizes:
+def central(planes: Sequence[HalfPlane], e: float = 0.0) -> followers.Sizes:
     """Return the sizes with the least r_0 at a given offset, by default none."""
     needed = (((plane.least - plane.normal.real * e) / plane.normal.imag, plane) for plane in planes)
     s_0, plane = max(needed, key=lambda at: at[0])
-    return _sizes_at((complex(e, s_0), (plane,))) if s_0 > 0.0 else Sizes(abs(e), e, 0.0)
+    return _sizes_at((complex(e, s_0), (plane,))) if s_0 > 0.0 else followers.Sizes(abs(e), e, 0.0)
 
 
-def offsets(planes: Sequence[HalfPlane], r_0: float) -> Range | None:
+def offsets(planes: Sequence[HalfPlane], r_0: float) -> followers.Range | None:
     """Return the least and the greatest offset that are permitted at a given r_0, None where none is.
 
     With e = r_0 sin(alpha), s_0 = r_0 cos(alpha) every limit permits one interval of alpha.
     """
-    lowest, highest = -RIGHT_ANGLE, RIGHT_ANGLE
+    lowest, highest = -followers.RIGHT_ANGLE, followers.RIGHT_ANGLE
     for plane in planes:
         if plane.least > r_0 * (1.0 + ON_CIRCLE):
             return None
@@ -169,7 +155,7 @@ def offsets(planes: Sequence[HalfPlane], r_0: float) -> Range | None:
     return r_0 * math.sin(lowest), r_0 * math.sin(highest)
 
 
-def _smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes:
+def _smallest_plate(motion: Motion, rho_flat: float, margin: float) -> followers.PlateSizes:
     """Return the sizes of a flat follower's cam with the least radius of curvature `rho_flat`.
 
     The radius of curvature is r_0 + s + s'', so that at r_0 = -(s + s'') the cam is just convex; the plate reaches
@@ -177,10 +163,10 @@ def _smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSize
     """
     touch = motion.maximum(-1.0, 0.0, -1.0)
     r_0_min, phi = (math.inf, motion.drops[0]) if motion.drops else (max(0.0, touch.value), touch.phi)
-    return PlateSizes(r_0_min, r_0_min + rho_flat, motion.ds_max.value + margin, phi)
+    return followers.PlateSizes(r_0_min, r_0_min + rho_flat, motion.ds_max.value + margin, phi)
 
 
-def _smallest_rocker(rocker: Rocker, limits: Limits) -> Sizes | Names:
+def _smallest_rocker(rocker: followers.Rocker, limits: followers.Limits) -> followers.Sizes | Names:
     """Return the sizes with the least r_0, the place of the cam's centre being free, or the limits that permit none.
 
     The half planes of a few positions are held; as long as another position is outside its limit, it joins them. A
@@ -189,7 +175,7 @@ def _smallest_rocker(rocker: Rocker, limits: Limits) -> Sizes | Names:
     swing, l = rocker.motion.h, rocker.l
     high = complex(-math.sin(swing), math.cos(swing))
     planes = [HalfPlane(LOWEST, 1j, 0.0), HalfPlane(HIGHEST, high, -l * math.sin(swing))]
-    sizes = Sizes(0.0, 0.0, 0.0)
+    sizes = followers.Sizes(0.0, 0.0, 0.0)
     for _ in range(ROUNDS):
         further = [plane for limit in limits.each for plane in _outside(rocker, limit, complex(sizes.e, sizes.s_0))]
         if not further:
@@ -211,7 +197,7 @@ def _opposed(planes: list[HalfPlane]) -> Names:
     return tuple(names)
 
 
-def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
+def _outside(rocker: followers.Rocker, limit: followers.Limit, place: complex) -> Iterator[HalfPlane]:
     """Go through the positions that most lack their limit."""
     for worst in slacks(rocker, limit, place):
         if worst.value < -REACHED * rocker.l:
@@ -220,7 +206,7 @@ def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane
             yield HalfPlane(limit.name, complex(normal), float(lowest), worst.phi)
 
 
-def slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
+def slacks(rocker: followers.Rocker, limit: followers.Limit, place: complex) -> list[Extreme]:
     """Return the least distances of a place from the limit, m, negative outside of it, and where they are."""
 
     def slack(phi: Any, side: int) -> Any:
@@ -230,7 +216,7 @@ def slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
     return minima(slack, rocker.motion.phase(limit.phase).corners)
 
 
-def _smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> Sizes | Names:
+def _smallest_rocker_at(rocker: followers.Rocker, limits: followers.Limits, l_OC: float) -> followers.Sizes | Names:
     """Return the sizes with the least r_0 at a given distance of the pivot, or the limits that permit none."""
     lowest, highest = (0.0, LOWEST), (math.pi - rocker.motion.h, HIGHEST)
     for limit in limits.each:
@@ -242,10 +228,10 @@ def _smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> Sizes | 
     if beta > highest[0]:
         return name, highest[1]
     place, farthest = (rocker.l - l_OC * complex(math.cos(end), -math.sin(end)) for end in (beta, highest[0]))
-    return Sizes(abs(place), place.real, place.imag, (name,), l_OC, abs(farthest))
+    return followers.Sizes(abs(place), place.real, place.imag, (name,), l_OC, abs(farthest))
 
 
-def _angles_permitted(rocker: Rocker, limit: Limit, d: float) -> tuple[float, ...]:
+def _angles_permitted(rocker: followers.Rocker, limit: followers.Limit, d: float) -> tuple[float, ...]:
     """Return the least -q of the positions, and between which angles -beta and beta they permit the cam's centre.
 
     With x = beta + psi a limit at the distance d of the pivot is sin(x - way sense gamma) >= q; a -q below -1 permits
@@ -274,12 +260,12 @@ def _angles_permitted(rocker: Rocker, limit: Limit, d: float) -> tuple[float, ..
 # The cam of each follower: the smallest one, or that of given sizes.
 
 
-def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
+def roller_cam(cam: Cam, motion: Motion, values: Values) -> followers.RollerCam:
     """Return the smallest cam for a roller, or the one with the given r_0, e, or both.
 
     Raises InputError: no offset is permitted at the given r_0.
     """
-    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+    limits = followers.Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
     planes = wedge(motion, limits, cam.sense)
     r_0, e, between, permitted = values.get("r_0"), values.get("e"), None, None
     if r_0 is None:
@@ -292,12 +278,14 @@ def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
             raise InputError("cam-no-offset", r_0=_mm(r_0), least=six_digits(_smallest_roller(planes).r_0))
         else:
             e = 0.5 * (between[0] + between[1])
-        sizes = Sizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
-    profile = RollerProfile(Straight(motion, cam.sense), sizes, values["R_roller"])
-    return RollerCam(profile=profile, limits=limits, by_tangents=apex(planes), offsets=between, permitted=permitted)
+        sizes = followers.Sizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
+    profile = followers.RollerProfile(followers.Straight(motion, cam.sense), sizes, values["R_roller"])
+    return followers.RollerCam(
+        profile=profile, limits=limits, by_tangents=apex(planes), offsets=between, permitted=permitted
+    )
 
 
-def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
+def plate_cam(cam: Cam, motion: Motion, values: Values) -> followers.PlateCam:
     """Return the smallest cam for a plate, or the one with the given r_0_flat.
 
     Raises InputError: at the given r_0 the profile is curved with a smaller radius than is wanted.
@@ -309,17 +297,19 @@ def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
             lengths = {"r_0": _mm(r_0), "rho": _mm(values["rho_flat"]), "least": six_digits(sizes.r_0)}
             raise InputError("cam-plate-r-0", **lengths)
         sizes = replace(sizes, r_0=r_0)
-    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense), given=r_0 is not None)
+    return followers.PlateCam(
+        sizes=sizes, profile=followers.PlateProfile(motion, sizes.r_0, cam.sense), given=r_0 is not None
+    )
 
 
-def rocker_cam(cam: Cam, values: Values) -> RollerCam:
+def rocker_cam(cam: Cam, values: Values) -> followers.RollerCam:
     """Return the smallest cam for a rocker, with the pivot at the given l_OC or wherever it is best.
 
     With r_0 given, too, nothing is left to be found.
     Raises InputError: the limits permit no place of the cam's centre, or the sizes given are those of no rocker's cam.
     """
-    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
-    rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
+    limits = followers.Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+    rocker = followers.Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
     distance, r_0, permitted = values.get("l_OC"), values.get("r_0"), None
     if distance is None:
         if r_0 is not None:
@@ -328,24 +318,26 @@ def rocker_cam(cam: Cam, values: Values) -> RollerCam:
     else:
         sizes = _smallest_rocker_at(rocker, limits, distance)
         if r_0 is not None:
-            permitted = (sizes.r_0, sizes.r_0_most) if isinstance(sizes, Sizes) else None
+            permitted = (sizes.r_0, sizes.r_0_most) if isinstance(sizes, followers.Sizes) else None
             l = rocker.l  # a triangle whose sides are given
             cosine = (l * l + distance * distance - r_0 * r_0) / (2.0 * l * distance)
             if not -1.0 < cosine < 1.0:
                 raise InputError("cam-rocker-triangle", l=_mm(l), l_OC=_mm(distance), r_0=_mm(r_0))
             place = l - distance * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
-            sizes = Sizes(r_0, place.real, place.imag, l_OC=distance)
-    if not isinstance(sizes, Sizes):
+            sizes = followers.Sizes(r_0, place.real, place.imag, l_OC=distance)
+    if not isinstance(sizes, followers.Sizes):
         free = sizes if distance is None else _smallest_rocker(rocker, limits)
-        if distance is None or not isinstance(free, Sizes):
-            raise InputError("cam-no-place", limits=_blamed(sizes if isinstance(free, Sizes) else free))
+        if distance is None or not isinstance(free, followers.Sizes):
+            raise InputError("cam-no-place", limits=_blamed(sizes if isinstance(free, followers.Sizes) else free))
         raise InputError("cam-no-place-at", limits=_blamed(sizes), l_OC=_mm(distance), best=_mm(free.l_OC))
-    return RollerCam(profile=RollerProfile(rocker, sizes, values["R_roller"]), limits=limits, permitted=permitted)
+    return followers.RollerCam(
+        profile=followers.RollerProfile(rocker, sizes, values["R_roller"]), limits=limits, permitted=permitted
+    )
 
 
 def _blamed(limits: Names) -> str:
     """Return the givens that leave no place."""
-    names = (f"gamma_{PHASE_OF[name]}" if name in PHASE_OF else "psi" for name in limits)
+    names = (f"gamma_{followers.PHASE_OF[name]}" if name in followers.PHASE_OF else "psi" for name in limits)
     return ", ".join(dict.fromkeys(names))
 
 

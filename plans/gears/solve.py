@@ -30,21 +30,7 @@ from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, worst_behind
 from ..solved import AT_LEAST, AT_MOST, EQUAL, PAPER_MM, Check, Solved, calculated, found_on, in_sections
-from .construction import (
-    CENTRES,
-    DIAGRAMS,
-    ENDLESS,
-    MESHING,
-    NUMBERS,
-    RIGHT,
-    SLIDING,
-    TANGENT,
-    THETA,
-    UP,
-    Layout,
-    construct,
-    rolling,
-)
+from . import construction
 from .gear import PLANS, SHIFTS, STANDARD, VALUES, WHEELS, GearPair, impossible, unit_of
 from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, SIZES, geometry
 from .teeth import Meshing, meshing_of, tooth_of
@@ -145,7 +131,7 @@ def _apart(values: Mapping[str, Any], x_sum: float, angle: float) -> None:
 # of the calculated quantities, each the steps of one part of the geometry
 CALCULATED = ("sizes", "centres", "auxiliary", "quality", "engagement", "measures")
 DRAWN = "drawn"
-SECTIONS = (*CALCULATED, DRAWN, SLIDING)
+SECTIONS = (*CALCULATED, DRAWN, construction.SLIDING)
 
 
 @cache
@@ -163,7 +149,7 @@ def section_of(name: str) -> str:
     """
     if name in _calculated():
         return _calculated()[name]
-    return SLIDING if role(name).kind in ("y", "theta") or name in ("PW", "mu_rho", "mu_theta") else DRAWN
+    return construction.SLIDING if role(name).kind in ("y", "theta") or name in ("PW", "mu_rho", "mu_theta") else DRAWN
 
 
 SAME_CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")  # the distance of the centres in other ways
@@ -211,7 +197,7 @@ def _roots(sizes: Mapping[str, float]) -> list[Check]:
     ]
 
 
-SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
+SCALES = {construction.MESHING: "mu_l", construction.SLIDING: "mu_rho", construction.THETA: "mu_theta"}
 # the plan that shows a quantity as a segment, beside those that are read from one
 SHOWN_ON = dict.fromkeys(
     (
@@ -219,7 +205,7 @@ SHOWN_ON = dict.fromkeys(
         *(f"{name}{i}" for i in WHEELS for name in ("d_", "d_w", "d_b", "d_a", "d_f", "d_p")),
         *(f"{name}{i}" for i in WHEELS for name in ("r_p", "rho_p", "rho_l", "rho_w", "rho_a")),
     ),
-    MESHING,
+    construction.MESHING,
 )
 LONGEST = 250.0  # mm, that N1N2 may be under the diagrams
 # the three points of the table that stand in A1, P, A2, in the order in which these follow from N1 to N2
@@ -232,7 +218,7 @@ class SolvedGear(Solved):
 
     pair: GearPair
     sizes: Mapping[str, float]
-    layout: Layout
+    layout: construction.Layout
 
     @cached_property
     def meshing(self) -> Meshing:
@@ -255,12 +241,12 @@ class SolvedGear(Solved):
     @property
     def edges(self) -> tuple[str, ...]:
         """The directions along which a drafting machine draws: tangent in the pole, line of centres, axes."""
-        return TANGENT, CENTRES, RIGHT, UP
+        return construction.TANGENT, construction.CENTRES, construction.RIGHT, construction.UP
 
     @property
     def on_paper(self) -> tuple[str, ...]:
         """The diagrams of sliding, which are drawn in millimetres of paper."""
-        return tuple(plan for plan in DIAGRAMS if plan in self.scale_of_plan)
+        return tuple(plan for plan in construction.DIAGRAMS if plan in self.scale_of_plan)
 
 
 def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedGear:
@@ -272,15 +258,23 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     found = complete(values)
     sizes = geometry(found)
     layout = _layout_of(pair, sizes)
-    program = construct(layout, plans)
+    program = construction.construct(layout, plans)
     sense, mu_rho = float(pair.sense), steps(sizes["l_N1N2"] / LONGEST)[0] / PAPER_MM
-    givens = {**found, **PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho}
+    givens = {
+        **found,
+        **PARTS,
+        **NOTHING,
+        **construction.NUMBERS,
+        "_sense": sense,
+        "_against": -sense,
+        "mu_rho": mu_rho,
+    }
     board = run(program, givens)
-    slides = SLIDING in program.plans
+    slides = construction.SLIDING in program.plans
     results = quantities(program, board.values, {"PW": givens["PW"]} if slides else {}, unit_of)
     if slides:
         results = _with_ends(results)
-        board.values |= dict.fromkeys(ENDLESS, -math.inf)
+        board.values |= dict.fromkeys(construction.ENDLESS, -math.inf)
     return SolvedGear(
         **found_on(board, program, SCALES, SHOWN_ON),
         quantities=in_sections(_stated(givens, {*program.plans}, values) | results, SECTIONS, section_of),
@@ -291,19 +285,19 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     )
 
 
-def _layout_of(pair: GearPair, sizes: Mapping[str, float]) -> Layout:
+def _layout_of(pair: GearPair, sizes: Mapping[str, float]) -> construction.Layout:
     """Return what the construction of a pair with these sizes depends on.
 
     Of three points of the table of sliding the second stands in P, unless A1 or A2 is beyond it.
     """
     before = sum(min(max(sizes[name], 0.0), sizes["l_N1N2"]) < sizes["rho_w1"] for name in ("rho_p1", "rho_a1"))
-    first, second = (rolling(sizes[f"rho_w{i}"], sizes[f"rho_a{i}"]) for i in WHEELS)
-    return Layout((first, second), pair.sense, MARKS[before])
+    first, second = (construction.rolling(sizes[f"rho_w{i}"], sizes[f"rho_a{i}"]) for i in WHEELS)
+    return construction.Layout((first, second), pair.sense, MARKS[before])
 
 
 def _stated(givens: Mapping[str, Any], drawn: set[str], values: Mapping[str, float]) -> dict[str, Quantity]:
     """Return what the board begins with and is a result: scale factors of diagrams, shifts that have been found."""
-    units = {SLIDING: "m/mm", THETA: "1/mm"}
+    units = {construction.SLIDING: "m/mm", construction.THETA: "1/mm"}
     scales = ((SCALES[plan], unit) for plan, unit in units.items() if plan in drawn)
     found = {name: Quantity(name, givens[name] * PAPER_MM, unit) for name, unit in scales}
     return found | {name: Quantity(name, givens[name], "1") for name in ("x_1", "x_2") if name not in values}
@@ -313,7 +307,7 @@ def _with_ends(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
     """Return the quantities with those of the table that are undefined, each beside the other one of its point."""
     found: dict[str, Quantity] = {}
     for name, quantity in results.items():
-        ends = [Quantity(end, None, unit_of(end)) for end, other in ENDLESS.items() if name == other]
+        ends = [Quantity(end, None, unit_of(end)) for end, other in construction.ENDLESS.items() if name == other]
         found |= {item.name: item for item in sorted((quantity, *ends), key=lambda item: item.name)}
     return found
 
@@ -400,7 +394,7 @@ def scale_errors(solved: SolvedGear, hands: Mapping[str, Hand], quantities: Sequ
 
     Raises InputError with the key `chart-no-meshing` where the meshing is not among the plans.
     """
-    if MESHING not in solved.scale_of_plan:
+    if construction.MESHING not in solved.scale_of_plan:
         raise InputError("chart-no-meshing")
     wanted = tuple(quantities) or USUAL
     at_once = Hands.of(hands.values())
