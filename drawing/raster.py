@@ -32,9 +32,9 @@ class Convex(NamedTuple):
     def of(cls, a: Points, b: Points, boxes: Flags | bool = False) -> Convex:
         """Return strokes from `a` to `b`, or `boxes` between these corners."""
         half = (b - a) / 2
-        along = np.where(boxes, 0, half)
+        along = half if boxes is False else np.where(boxes, 0, half)
         length = abs(along)
-        normal = np.where(length == 0, 0, 1j * along / np.where(length == 0, 1, length))
+        normal = 1j * along / (length + (length == 0))
         return cls((a + b) / 2, along, abs(half.real), abs(half.imag), normal, np.zeros(len(a)))
 
     def distance(self, x: Reals, y: Reals, hw: Reals, hh: Reals) -> Reals:
@@ -109,7 +109,9 @@ class Cells(NamedTuple):
         low, high = (at - reach - self.corner) / self.side, (at + reach - self.corner) / self.side + (1 + 1j)
         x0, x1 = (within(np.floor(x), 0, columns - 1).astype(int) for x in (low.real, high.real))
         y0, y1 = (within(np.floor(y), 0, rows - 1).astype(int) for y in (low.imag, high.imag))
-        clear: Flags = self.total[y1, x1] - self.total[y0, x1] - self.total[y1, x0] + self.total[y0, x0] == 0
+        count, below, above = self.total.ravel(), y0 * columns, y1 * columns
+        inside = count.take(above + x1) - count.take(below + x1) - count.take(above + x0) + count.take(below + x0)
+        clear: Flags = inside == 0
         return clear
 
     def at(self, x: Reals, y: Reals) -> Flags:

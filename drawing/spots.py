@@ -393,8 +393,9 @@ class Surroundings:
         k, j = self.tree.query(shapely.box(low - PASSING, under - PASSING, high + PASSING, over + PASSING))
         leaders = lines(starts, heads)
         q, v, hx, hy, m, radius = (column[j] for column in self.things)
-        p, u, _, _, n, _ = (column[k] for column in Convex.of(starts, heads))
-        kind, d = self.kind[j], q - p
+        sides = Convex.of(starts, heads)
+        u, n = sides.along[k], sides.normal[k]
+        kind, d = self.kind[j], q - sides.middle[k]
         is_head = kind == HEAD
         is_stroke = (v != 0) & ~is_head
 
@@ -406,9 +407,10 @@ class Surroundings:
         runs = is_stroke & (kind != NAMED) & (across(u, m) < GRAZING * abs(u))
         # nodes on the way, but for the first half of a millimetre, where the leader leaves its own
         begin = starts + (heads - starts) * np.minimum(LEAVES / np.maximum(abs(heads - starts), SLACK), 0.5)
-        half, d = (heads - begin)[k] / 2, q - (heads + begin)[k] / 2
+        few = ((kind == CIRCLE) | (kind == NODE)).nonzero()[0]
+        half, d = (heads - begin)[k[few]] / 2, q[few] - (heads + begin)[k[few]] / 2
         near = abs(d - within((d * half.conj()).real / (half * half.conj()).real, -1, 1) * half)
-        crosses |= ((kind == CIRCLE) | (kind == NODE)) & (near < radius + PASSING)
+        crosses[few] |= near < radius[few] + PASSING
         begins = (abs((starts[k] - q).real) < hx + TOUCH) & (abs((starts[k] - q).imag) < hy + TOUCH)
         few = (is_head & begins).nonzero()[0]
         begins[few] = shapely.dwithin(self.shapes[j[few]], shapely.points(pairs(starts[k[few]])), TOUCH)
