@@ -20,7 +20,7 @@ from ..boards.batch import batch
 from ..boards.exact import SMALL, ExactBoard
 from ..hands.shaky import Paper
 from ..marking.key import Key, tolerances
-from . import cams_and_gears, forces  # noqa: F401  they enter their rules
+from . import cams, forces, gears  # noqa: F401  they enter their rules
 from .data import angle_of_driver
 from .rules import BY_SCALE, Broken, Change, Scene, broken
 
