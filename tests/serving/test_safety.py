@@ -130,6 +130,10 @@ def test_a_wrong_file_of_passwords_is_refused(text: str, tmp_path: Path) -> None
         read_passwords(tmp_path / "passwords")
 
 
+def interrupted(*said: int) -> None:
+    raise KeyboardInterrupt
+
+
 def test_a_process_is_bounded_and_mended(tmp_path: Path) -> None:
     seat, far = Seat(tmp_path / "seat", memory=1_000_000_000), list[tuple[int, int]]()
     try:
@@ -138,6 +142,9 @@ def test_a_process_is_bounded_and_mended(tmp_path: Path) -> None:
         with pytest.raises(InputError, match=r"longer than 1 s"):
             seat.do(sleeps, (60.0,), 1.0, print)
         assert seat.do(dies_once, (str(tmp_path / "once"),), 60.0, print) == "done"
+        with pytest.raises(KeyboardInterrupt):
+            seat.do(sleeps, (0.0,), 60.0, interrupted)
+        assert seat.do(dies_once, (str(tmp_path / "once"),), 60.0, print) == "done"  # not what the other one has made
         with pytest.raises(InputError, match="crash"):
             seat.do(dies, (), 60.0, print)
         with pytest.raises(CrashError, match="ZeroDivisionError"):

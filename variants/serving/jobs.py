@@ -128,24 +128,25 @@ class Seat:
             Anything else.
         """
         for _ in range(0 if self.over else 2):
-            pipe, until = self._begun(), time.monotonic() + seconds
-            with suppress(EOFError, OSError):
-                pipe.send((make, args))
-                while pipe.poll(max(until - time.monotonic(), 0.0)):
-                    kind, said = pipe.recv()
-                    if kind == "advance":
+            pipe, until, kind = self._begun(), time.monotonic() + seconds, "advance"
+            try:
+                with suppress(EOFError, OSError):
+                    pipe.send((make, args))
+                    while pipe.poll(max(until - time.monotonic(), 0.0)):
+                        kind, said = pipe.recv()
+                        if kind == "made":
+                            return said
+                        if kind == "refused":
+                            raise said
+                        if kind == "failed":
+                            raise CrashError(said)
                         advance(*said)
-                    elif kind == "made":
-                        return said
-                    elif kind == "refused":
-                        raise said
-                    else:
-                        raise CrashError(said)
-                self.stop()
-                raise InputError("serve-late", n=round(seconds))
+                    raise InputError("serve-late", n=round(seconds))
+            finally:
+                if kind == "advance":  # it is dead, or still at it: its answer would be taken for that to the next job
+                    self.stop()
             if self.over:
                 break
-            self.stop()
         raise InputError("serve-died")
 
     def stop(self, over: bool = False) -> None:
