@@ -19,7 +19,7 @@ web: $(USABLE)
 	$(PY) -m kulman serve --open
 
 test: $(READY)
-	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m "not soak"
+	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m "not soak" --ignore tests/browser  # which make browser runs
 
 soak: $(READY)
 	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak --ignore tests/browser  # which make browser runs

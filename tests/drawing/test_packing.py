@@ -215,7 +215,7 @@ def test_a_page_ends_where_something_begins_that_leaves_it_full(begins, ends):
     assert pages == [0] * ends + [1] * (13 - ends)
 
 
-@pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [20, pytest.param(100, marks=pytest.mark.soak)])
 def test_runs_of_views_take_no_more_pages_than_the_fullest_ones(count):
     several = 0
     for seed in range(count):

@@ -247,7 +247,7 @@ def test_optional_labels_run_along_their_lines_give_way_to_all_others_and_are_le
     assert place([Request("x", 9, 5, (0j, 12 + 0j), optional=True)], Obstacles(wall)).corners == {}
 
 
-@pytest.mark.parametrize("scenes", [30, pytest.param(300, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("scenes", [30, pytest.param(120, marks=pytest.mark.soak)])
 def test_leaders_cross_no_label_and_end_at_their_anchor(scenes):
     leaders = 0
     for seed in range(scenes):

@@ -262,7 +262,7 @@ def test_wheels_roll_through_a_pitch_without_overlap_and_without_backlash(others
         assert polygon(turned).intersection(polygon(second)).area > 1e-2
 
 
-@pytest.fixture(scope="module", params=[pytest.param(10, id="10"), pytest.param(300, id="300", marks=pytest.mark.soak)])
+@pytest.fixture(scope="module", params=[pytest.param(10, id="10"), pytest.param(120, id="120", marks=pytest.mark.soak)])
 def drawn(request: pytest.FixtureRequest) -> Drawn:
     """Return pairs that are drawn, every other one with a pinion that turns clockwise, with their second routes."""
     pairs = random_pairs(np.random.default_rng(SEED), request.param)

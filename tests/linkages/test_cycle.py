@@ -78,7 +78,7 @@ def test_zeros_close_together_are_found_wherever_they_lie_between_grid_points() 
         assert len(touches) == 0
 
 
-@counts(30, 4_000)
+@counts(30, 1_500)
 def test_limiting_angles_of_four_bars_follow_the_cosine_law(count: int) -> None:
     mechanism, worst, limited = four_bar(), 0.0, 0
     for v in random_four_bars(SEED, count):
@@ -136,7 +136,7 @@ def misses(done: OutputMotion, dead: list[float], length: float, ratio: float) -
     return np.array([places, abs(done.travel.length - length), abs(done.ratio - ratio)])
 
 
-@counts(30, 4_000)
+@counts(30, 1_500)
 def test_sliders_stand_dead_where_crank_and_rod_lie_in_line(count: int) -> None:
     missed = []
     for v in random_slider_cranks(SEED, count):
@@ -152,7 +152,7 @@ def test_sliders_stand_dead_where_crank_and_rod_lie_in_line(count: int) -> None:
     assert np.all(np.max(missed, axis=0) < [1e-11, 1e-12, 1e-11])
 
 
-@counts(30, 4_000)
+@counts(30, 1_500)
 def test_rockers_stand_dead_where_crank_and_coupler_lie_in_line(count: int) -> None:
     missed = []
     for v in random_crank_rockers(SEED, count):
@@ -222,7 +222,7 @@ def test_without_a_stroke_the_cycle_begins_at_the_zero_of_the_crank_or_where_it_
     assert said.angles[0] == 0.7
 
 
-@counts(20, 1_200)
+@counts(20, 500)
 def test_links_keep_their_lengths_and_branches_over_the_cycle(count: int) -> None:
     for values in random_four_bars(SEED + 2, count):
         done = cycle(four_bar(), values, ("position",), positions=360)
@@ -251,7 +251,7 @@ def test_positions_of_a_cycle_are_those_solved_one_by_one() -> None:
         }
 
 
-@counts(10, 400)
+@counts(10, 150)
 def test_velocities_are_derivatives_of_places_and_accelerations_of_velocities(count: int) -> None:
     cases = [(four_bar(), v) for v in random_four_bars(SEED + 3, count)]
     cases += [(slider_crank(), v) for v in random_slider_cranks(SEED + 3, count)]

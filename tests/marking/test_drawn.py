@@ -94,6 +94,7 @@ def test_drawing_of_another_variant_fits_its_own_better() -> None:
     assert own.quality < 0.8 * theirs.quality or len(own.plans) < len(theirs.plans)
 
 
+@pytest.mark.soak
 def test_all_plans_tell_how_a_sheet_is_turned_among_thousands_of_lines() -> None:
     sheet = bare("scheme-10-shaper-two-blocks")  # its force plan of a few lines is there by chance, otherwise turned
     wrong = next(one for one in sheet.book.signatures if one.broken.mistake == "M24")
@@ -138,9 +139,7 @@ def test_normal_part_drawn_the_wrong_way_is_read_as_drawn() -> None:
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize(
-    "seed", [1, 2, 3]
-)  # errors of 0.1 mm let one drawing of a task pass and another miss by a hair
+@pytest.mark.parametrize("seed", [1, 2])  # errors of 0.1 mm let one drawing pass and another miss by a hair
 def test_vectors_are_found_in_most_tasks(seed: int) -> None:
     whole = {}
     for task in bundled("mechanism"):
@@ -186,16 +185,16 @@ def test_a_mistake_is_named_first_of_a_drawing(task: str, mistake: str) -> None:
 
 @pytest.mark.soak
 def test_most_planted_mistakes_are_named_first() -> None:
-    """One mistake of each kind in up to eight tasks; counted are those that exact readings in a form name."""
+    """One mistake of each kind in up to five tasks; counted are those that exact readings in a form name."""
     named = dict[tuple[str, str], bool]()
     for kind in KINDS:
         tasks = sorted(bundled("mechanism"))
         random.Random(kind).shuffle(tasks)
         having = ((task, [s for s in bare(task).book.signatures if s.broken.mistake == kind]) for task in tasks)
-        for task, broken in islice(((task, broken) for task, broken in having if broken), 8):
+        for task, broken in islice(((task, broken) for task, broken in having if broken), 5):
             of_drawing, of_form = planted(bare(task), random.Random(f"{task} 7").choice(broken))
             if not accepted(kind).isdisjoint(of_form):
                 named[kind, task] = not accepted(kind).isdisjoint(of_drawing)
 
-    assert len(named) > 100
+    assert len(named) > 60
     assert sum(named.values()) >= 0.85 * len(named), [drawing for drawing, found in named.items() if not found]

@@ -202,9 +202,8 @@ def test_a_page_that_is_not_handed_in_is_missing_as_empty_cells_of_a_form_are(on
     assert missing(replace(answers, plans=frozenset()), ready) == (set() if only is None else FORCES)
 
 
-@pytest.mark.parametrize(
-    "quality", [PHONE, *(pytest.param(way, marks=pytest.mark.soak) for way in (SCANNER, MESSENGER))]
-)
+@pytest.mark.soak
+@pytest.mark.parametrize("quality", [PHONE, SCANNER, MESSENGER])
 def test_a_plan_is_missing_where_it_begins_nothing_is_drawn_and_not_judged_where_it_is_faint(
     quality: str, tmp_path: Path
 ) -> None:

@@ -449,6 +449,7 @@ def test_letters_of_a_pdf_can_be_selected_and_faces_of_an_svg_are_whole_fonts(
             assert {"OS/2", "cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "name", "post"} <= {*font.keys()}
 
 
+@pytest.mark.soak
 def test_a_text_that_is_higher_than_a_page_stands_in_parts_one_after_the_other() -> None:
     sheet = kulman.sheet(task_of(chain(6)), only=["acceleration"], format="A4")
     name = "equations_acceleration"
