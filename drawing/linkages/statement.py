@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
 from ...plans.board import POSITION
-from ...plans.names import role
+from ...plans.names import LEVER, role
 from ...scales.scale import Scale, steps
 from ..extents import Size
 from ..page import DATA, SCHEME, TASK
@@ -84,7 +85,7 @@ def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, 
     words, lines = scene.words, aims(scene, plans)
     said = ". ".join(called for _, called, value, _ in rows_of(scene, plans) if not value)
     lines = [f"{said}.", *lines] if said else lines
-    scales = ", ".join(map(words.scale, fixed))
+    scales = ", ".join(_told_apart({scale.symbol: words.scale(scale) for scale in fixed}))
     lines += [words["task.scales"].format(scales=scales)] if scales else []
     sought = [name for plan in plans for name in _sought(scene, plan)]
     turning = dict.fromkeys(kind for name in sought if (kind := role(name).kind) in TURNING)
@@ -95,16 +96,28 @@ def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, 
     return text_block(TASK, words["heading.task"].format(variant=variant), [*map(words_of, lines)], scene.style, width)
 
 
+def _told_apart(scales: dict[str, str]) -> Iterator[str]:
+    """Go through scale factors; those that share their letters are followed by their links, or by their point."""
+    often = Counter(said.partition(" = ")[0] for said in scales.values())
+    for symbol, said in scales.items():
+        letters, _, value = said.partition(" = ")
+        place = ", ".join(map(str, role(symbol).links)) or role(symbol).about
+        yield f"{letters} ({place}) = {value}" if often[letters] > 1 and place else said
+
+
 def aims(scene: Scene, plans: Collection[str]) -> list[str]:
     """Return what the plans have to find, a sentence each."""
     every = {plan: ", ".join(map(scene.words.symbol, _sought(scene, plan))) for plan in plans}
     return [scene.words[f"task.{plan}"].format(names=names) for plan, names in every.items()]
 
 
-def _sought(scene: Scene, plan: str) -> Iterator[str]:
-    """Go through the names of what a plan finds, but for each force of a load and each arm."""
-    for part in (part for part in results_parts(scene.solved) if part.kind == plan):
-        for name in part.names:
-            quantity = role(name)
-            if plan not in FORCES or (quantity.kind in FOUND and not quantity.part and not quantity.about):
-                yield name
+def _sought(scene: Scene, plan: str) -> list[str]:
+    """Return the names of what a plan finds, but for each force of a load and each arm.
+
+    A lever that finds nothing new finds again what balances the driver.
+    """
+    names = [name for part in results_parts(scene.solved) if part.kind == plan for name in part.names]
+    if plan not in FORCES:
+        return names
+    found = [name for name in names if role(name).kind in FOUND and not role(name).about]
+    return [name for name in found if not role(name).part] or [name for name in found if role(name).part == LEVER]

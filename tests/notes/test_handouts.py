@@ -28,6 +28,7 @@ from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import _begun_stages, _done
 from kulman.drawing.linkages.asking import given_name
 from kulman.drawing.notes.blocks import Figure, Steps
+from kulman.drawing.page import TASK as ASKING
 from kulman.drawing.page import extent
 from kulman.drawing.pdf import MARGIN, _tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
@@ -222,6 +223,17 @@ def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
 
     assert len(named) > 300
     assert [key for key, text in named.items() if not text or re.search(r"(?<![_^]){", text)] == []
+
+
+@pytest.mark.parametrize("task", some(LINKAGES, 0, 2))
+def test_a_blank_says_what_each_plan_has_to_find(task: str) -> None:
+    (asked,) = (view for view in views_of(handout(task, lang="en")) if view.name == ASKING)
+    said = " ".join(text.markup for text in leaves(asked.shapes) if isinstance(text, Text))
+
+    assert "; find " in said
+    assert "find ." not in said
+    factors = re.findall(r"(μ_\{\w+\}(?: \([^)]+\))?) = ", said)
+    assert len(set(factors)) == len(factors)
 
 
 @pytest.mark.parametrize(
