@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from ...plans.board import POSITION, Step
 from ...plans.linkages.legs import guide_letters
+from ...plans.linkages.mechanism import positive
 from ...plans.names import ORIGIN, role
 from ...plans.quantities import Quantity
 from ...scales.packaged import packaged
@@ -327,10 +328,12 @@ def tell(teller: Teller, step: Step) -> str:
             return say("arcs", one=drawn(radius), other=drawn(other), **ends)
         case "divide", start, end, part, whole:  # on the mechanism by its distance, on a plan by similarity
             a, b, s = map(mark, (start, end, point))
+            beyond = "" if positive(part) == part else "_beyond"  # as of a second crank, across the shaft
             if step.plan == POSITION:
-                return say("on_link", point=s, link=f"{a}{b}", length=teller.lettered(f"{a}{s}", part, POSITION))
-            ratio = " : ".join(teller.words.symbol(role(name).shown) for name in (part, whole))
-            return say("divide", point=s, segment=f"{a}{b}", ratio=ratio)
+                length = teller.lettered(f"{a}{s}", positive(part), POSITION)
+                return say(f"on_link{beyond}", point=s, link=f"{a}{b}", start=a, length=length)
+            ratio = " : ".join(teller.words.symbol(role(positive(name)).shown) for name in (part, whole))
+            return say(f"divide{beyond}", point=s, segment=f"{a}{b}", start=a, ratio=ratio)
         case "same", other if mark(other) != mark(point) and not role(point).hidden:
             return say("same", point=mark(point), other=mark(other))
         case "tangent", centre, end, offset, *_:

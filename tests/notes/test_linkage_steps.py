@@ -105,7 +105,18 @@ def test_no_intermediate_name_is_printed(task: str) -> None:
     for lang in LANGUAGES:
         story = told(task, lang)
         for text in chain(chain.from_iterable(story.steps.values()), story.conclusions):
-            assert not re.search(r"_\{_|origin|_\{\}|\(\)|  ", text), text
+            assert not re.search(r"_\{_|origin|minus|_\{\}|\(\)|  ", text), text
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_second_crank_is_marked_beyond_the_shaft_on_every_plan(lang: str) -> None:
+    steps = told("scheme-06-opposed-compressor", lang).steps
+    beyond = {"uk": "продовженні", "ru": "продолжении", "en": "beyond"}[lang]
+
+    for view in ("position", "velocity", "acceleration"):
+        (text,) = (text for text in steps[view] if beyond in text)
+        assert "minus" not in text
+        assert "l_{OA}" in text
 
 
 def test_a_segment_that_is_too_short_to_be_measured_is_no_factor(tmp_path: Path) -> None:
