@@ -129,6 +129,10 @@ class KulmanError(Exception):
 
         return _OPTION.sub(spelled, line)
 
+    def __repr__(self) -> str:
+        """Return kind and message, as lists of warnings show it."""
+        return f"{type(self).__name__}({str(self)!r})" if self.key in messages("en") else super().__repr__()
+
 
 def _shown(value: object, language: str) -> object:
     """Return a value of a message in a language, with its decimal sign and its units; an error, and several, too."""

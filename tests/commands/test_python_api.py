@@ -404,3 +404,4 @@ def test_what_changes_nothing_on_a_chart_is_told_by_the_name_of_the_argument() -
     said = kulman.chart(TASK, chart="stability", quantities="V_B", positions=4, tolerance=5).warnings
 
     assert [str(one) for one in said] == ["tolerance changes nothing on charts of this kind: stability"]
+    assert repr(said) == "(InputError('tolerance changes nothing on charts of this kind: stability'),)"
