@@ -32,7 +32,7 @@ FILES = {
     "plans not an array": ("plans = [", "plans = 1 # [", "type-array"),
     "plan a number": ('plans = ["structure"', "plans = [1", "type-text"),
     "title in an unknown language": ("[title]\nuk = ", "[title]\nua = ", "key-unknown"),
-    "title a text": ("[title]\n", 'title = "x"\n[titel]\n', "type-table"),
+    "title a number": ("[title]\n", "title = 3\n[titel]\n", "type-table"),
     "givens empty": ("[givens]\n", "[givens]\n[given]\n", "type-table"),
     "given without a unit": ('phi = { unit = "deg" }', "phi = {}", "given-kind"),
     "given with a unit and choices": ('{ unit = "deg" }', '{ unit = "deg", choices = ["a"] }', "given-kind"),
