@@ -14,7 +14,7 @@ from kulman.tests.support.mutated_runs import faults, judged, run
 from kulman.tests.support.task_files import with_changes
 from kulman.variants.shelf import bundled_text
 
-CASES, DRAWN, CLASSES = 250, 30, 40  # of each half of the soak: half a minute
+CASES, DRAWN, CLASSES = 150, 20, 25  # of each half of the soak: twenty seconds
 HANG = 30.0  # seconds: a slow machine is no fault; the long run has the bound that counts
 
 

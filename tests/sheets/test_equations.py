@@ -116,7 +116,7 @@ def test_equations_of_a_random_dyad_recompute_can_be_solved_and_are_told_in_orde
 @pytest.mark.soak
 @pytest.mark.parametrize(("kind", "before", "bent"), CASES)
 def test_equations_of_many_dyads(kind: str, before: tuple[int, int], bent: bool) -> None:
-    for number in range(60):
+    for number in range(30):
         scene = random_scene(kind, before, bent, number)
 
         # near a singular position forces grow beyond the digits that a sheet prints

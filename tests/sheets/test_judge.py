@@ -298,7 +298,7 @@ def test_sheets_of_all_variants_are_right_as_good_as_any_and_as_long_in_each_lan
         assert (case.drawn.format, other_lengths(shown, case.drawn)) == (shown.format, {}), variant
         assert same_scales(shown, case.drawn), variant
         assert len(case.sheet.pages) <= (1 if task in SHORT else 2), variant
-        if k % 4 == 0:  # one of each four variants, in another language by turns
+        if k in (0, 2, 4):  # some of the variants in another language by turns
             assert pages_of(task, variant, [next(turn)]) == [len(case.sheet.pages)], variant
     assert others <= 3
 

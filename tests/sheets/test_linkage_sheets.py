@@ -125,9 +125,11 @@ def test_sheet_of_a_scheme_is_without_fault(case: Linkage) -> None:
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("task", TASKS)
-@pytest.mark.parametrize(("lang", "format"), [("en", "A3"), ("ru", "A2"), ("uk", "A4")])
-def test_sheets_of_a_scheme_on_other_formats_are_without_fault(task: str, lang: str, format: str) -> None:
+@pytest.mark.parametrize("turn", [0, 1])
+@pytest.mark.parametrize(("number", "task"), [*enumerate(TASKS)])
+def test_sheets_of_a_scheme_on_other_formats_are_without_fault(number: int, task: str, turn: int) -> None:
+    """Each on two of these formats by turns."""
+    lang, format = (("en", "A3"), ("ru", "A2"), ("uk", "A4"))[(number + turn) % 3]
     case = Linkage(task, TASKS[task][0], lang, format)
 
     assert linkage_faults(case) == []
