@@ -25,6 +25,7 @@ AGAIN = 4  # times that all labels are placed anew when some found no place; the
 BEST = (0, 6, 48)  # places along its segment, from the best one on, that are looked at together
 FARTHEST = 1e4  # mm: so far apart labels stand in nobody's way
 NOBODY = np.zeros(0, dtype=int)
+MOVED = 3  # labels at most that are moved for one
 ROUNDS = 3  # times that labels in trouble are looked through
 MANY = 24  # of these, for whom no order helps: the drawing is crowded
 
@@ -287,6 +288,9 @@ class _Board:
         self.scene, self.requests, self.wanted, self.gap = scene, scene.requests, scene.wanted, scene.gap
         self.x, self.y, self.cost = scene.grid._replace(cost=scene.grid.cost.copy())
         rows = np.arange(len(self.x))
+        self.open: Flags = np.any(
+            self.cost < spots.COVER, axis=1
+        )  # who has a place that covers nothing, without the others
         pick = self.cost.argmin(axis=1)
         self.now_x, self.now_y, self.now = (column[rows, pick] for column in scene.grid)
         self.down = np.zeros(len(self.x), dtype=bool)
@@ -324,6 +328,8 @@ class _Board:
             if i not in self.leaders and i not in self.angles:
                 self._apart(i, spots.THIN, False, False)
         self.failed = self.in_trouble()
+        if not self._optional:
+            self.cost = scene.grid.cost  # nobody is placed any more: orders are many, and are kept
 
     @cached_property
     def labels(self) -> Labels:
@@ -418,17 +424,19 @@ class _Board:
         return bool(self.down[i] and (self.now[i] >= spots.COVER or touched.any()))
 
     def _improve(self, i: int) -> bool:
+        if not self.open[i]:
+            return False
         cost, blocked, near = self._among(i)
         k = int(cost.argmin())
         if cost[k] < spots.COVER:
             self._put(i, k)
             return True
-        own = self.cost[i]
-        order = [k for k in np.argsort(own, kind="stable")[:24].tolist() if own[k] < spots.COVER]
+        own, few = self.cost[i], blocked.sum(axis=1) <= MOVED
+        order = [k for k in np.argsort(own, kind="stable")[:24].tolist() if own[k] < spots.COVER and few[k]]
         return any(self._push(i, k, near[blocked[k]].tolist()) for k in order)
 
     def _push(self, i: int, k: int, blockers: list[int]) -> bool:
-        if len(blockers) > 3 or not self.leaders.keys().isdisjoint(blockers):
+        if not self.open[blockers].all() or not self.leaders.keys().isdisjoint(blockers):
             return False
         before = self.now_x.copy(), self.now_y.copy(), self.now.copy()
         self._put(i, k)
@@ -486,6 +494,7 @@ class _Board:
         rows = rows.nonzero()[0]  # of labels that may stand there
         near = line.distance(self.x[rows], self.y[rows], w.hw[rows, None], w.hh[rows, None])
         self.cost[rows] += spots.COVER * (near < (self.gap if radius else BAR))
+        self.open[rows] = (self.cost[rows] < spots.COVER).any(axis=1)
         rows = rows[~self.down[rows]]
         pick = self.cost[rows].argmin(axis=1)
         self.now_x[rows], self.now_y[rows] = self.x[rows, pick], self.y[rows, pick]
