@@ -214,7 +214,8 @@ def arrange(
     best, count = None, most or len(views) + pages.least
     while count >= pages.least and (found := pages.found(count)) is not None:
         best, count = found[0], 0 if most else len(found[0]) - 1
-    return best
+    read = pages.found(len(best), place=on_a_page) if best is not None else None  # each page as one reads it
+    return read[0] if read is not None and len(read[0]) == len(best or ()) else best
 
 
 def in_turn(views: Sequence[View]) -> list[View]:
@@ -261,6 +262,7 @@ class Pages:
     norm: Norm
     goes_on: str
     begins: Beginning
+    _place: Callable[..., list[Placement] | None] = on_one_page
     _fewest: list[int] = field(init=False)  # pages that views in turn from each on take at least
     _parted: dict[tuple[int, int], list[View]] = field(default_factory=dict)
     _found: dict[tuple[int, ...], tuple[float, list[Standing]] | None] = field(default_factory=dict)
@@ -300,15 +302,21 @@ class Pages:
         *others, end = pages
         every = [self.grown(page, number) for number, page in enumerate(others)]
         short = sum(own for own, _ in every)
-        better = self.found(len(pages), short) if short and not enough else None
+        better = None
+        if short and not enough:
+            better = self.found(len(pages), short, on_a_page)
+            if better is None or better[1]:
+                better = self.found(len(pages), better[1] if better else short) or better
         return better or ([*(page for _, page in every), end], short)
 
-    def found(self, count: int, most: float = 0.0) -> tuple[list[list[Standing]], float] | None:
+    def found(
+        self, count: int, most: float = 0.0, place: Callable[..., list[Placement] | None] = on_one_page
+    ) -> tuple[list[list[Standing]], float] | None:
         """Return at most so many pages that are short of less than `most`, or of anything where that is 0.
 
-        Of the ways that are short of least the one that has come farthest goes on first.
+        Of the ways that are short of least the one that has come farthest goes on first; `place` lays out a page.
         """
-        even, best = most > 0.0, None
+        even, best, self._place = most > 0.0, None, place
         begun, serial, tried = [*self.begins(self.views), PART], numbers(), set[tuple[int, ...]]()
         reserved = [_area(reserved_boxes(self.sheet, self.norm, first=first)) for first in (False, True)]
         whole, enough = _area([drawing_area(self.sheet, self.norm)]), ENOUGH[self.sheet.letters] if even else 0.0
@@ -444,9 +452,9 @@ class Pages:
         if leaf.broken is not None:
             views[leaf.broken[0]] = self._parts(leaf)[0]
         first = leaf.number == 0
-        key = first, even, grown, *map(id, views)
+        key = first, even, grown, self._place is on_a_page, *map(id, views)
         if key not in self._found:
-            placed = on_one_page([view.size for view in views], self.sheet, self.norm, begins_of(views), first)
+            placed = self._place([view.size for view in views], self.sheet, self.norm, begins_of(views), first)
             self._found[key] = None
             if placed is not None:
                 page = [*zip(views, placed, strict=True)]
