@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 
 from . import spots
-from .areas import Shapes, lines
+from .areas import lines
 from .raster import Convex, Flags, Numbers, Points, Reals
 from .spots import Obstacles, Request, Segment, Surroundings, Wanted
 from .text import Box
@@ -297,7 +297,6 @@ class _Board:
         self.leaders: dict[int, tuple[complex, ...]] = {}
         self.angles: dict[int, tuple[complex, float]] = {}  # middles and directions of labels along their segments
         self._laid: list[tuple[complex, complex, float]] = []  # what these and leaders take: strokes, their half widths
-        self._leaders: Shapes | None = None  # those of them that are leaders
         self._out = [i for i, request in enumerate(self.requests) if request.name in without]
         self._optional = [i for i, request in enumerate(self.requests) if request.optional and i not in self._out]
         away = self._out + self._optional
@@ -485,7 +484,6 @@ class _Board:
         """Note where label i stands; no other label may stand on the stroke that it takes from now on."""
         self.now_x[i], self.now_y[i], self.now[i], self.down[i] = at.real, at.imag, 0.0, True
         self._laid.append((*stroke, radius))
-        self._leaders = None
         line, w = Convex.of(*np.array([stroke]).T), self.wanted
         line.radius[:] = radius
         (a, b), (low, high), reach = stroke, (self.scene.low, self.scene.high), max(radius, BAR)
@@ -545,9 +543,8 @@ class _Board:
 
     def _across(self, start: Points, head: Points) -> Reals:
         """Return what it costs that leaders, or parts of them, cross other leaders."""
-        if not any(radius == 0.0 for *_, radius in self._laid):
+        if not (laid := [(a, b) for a, b, radius in self._laid if radius == 0.0]):
             return np.zeros(len(start))
-        if self._leaders is None:
-            self._leaders = lines(*np.array([(a, b) for a, b, radius in self._laid if radius == 0.0]).T)
-        cost: Reals = spots.CROSSING * shapely.crosses(lines(start, head)[:, None], self._leaders).sum(axis=1)
+        across = shapely.crosses(lines(start, head)[:, None], lines(*np.array(laid).T)).sum(axis=1)
+        cost: Reals = spots.CROSSING * across
         return cost

@@ -259,35 +259,6 @@ def _is_symbol(letters: str, before: str, after: str, local: bool, script: str, 
     return bool(script or local or len(letters) == 1 or at_operator or _BEHIND_FUNCTION.search(before))
 
 
-class _Part(NamedTuple):
-    """A part of a word in one face, in units of the font size: the same whatever its height.
-
-    Its width is that with the spaces at its ends, `inked` that of what is `inner`, behind so many `spaces`.
-    """
-
-    face: str
-    inner: str
-    spaces: int
-    width: float
-    inked: float
-    bottom: float
-    top: float
-
-
-@lru_cache(maxsize=8192)
-def _parts(string: str, face: str) -> tuple[_Part, ...]:
-    """Return the parts of a word of plain characters: what the face lacks is in another one."""
-    parts, own = list[_Part](), font(face)
-    for other, letters in groupby(string, lambda letter: face if own.glyph(letter) else SCREEN):
-        part = "".join(letters)
-        widths, lows, highs = zip(*map(font(other).ink, part), strict=True)
-        inner, spaces = part.strip(" "), len(part) - len(part.lstrip(" "))
-        ink = slice(spaces, spaces + len(inner))
-        ends = (min(lows[ink]), max(highs[ink])) if inner else (0.0, 0.0)
-        parts.append(_Part(other, inner, spaces, sum(widths), sum(widths[ink]), *ends))
-    return tuple(parts)
-
-
 class _Pen:
     """Lays pieces of markup out from left to right.
 
@@ -326,13 +297,18 @@ class _Pen:
     def word(self, string: str, x: float, y: float, height: float, face: str) -> _Span:
         """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""
         start, (top, bottom) = x, _NO_INK
-        for part in _parts(string, face):
-            size = height * font(part.face).size
-            if part.inner:
-                at = x + font(part.face).ink(" ")[0] * size * part.spaces
-                self.runs.append(Run(at, y, size, part.inner, part.inked * size, part.face))
-                top, bottom = max(top, y + part.top * size), min(bottom, y + part.bottom * size)
-            x += part.width * size
+        for other, letters in groupby(string, lambda letter: face if font(face).glyph(letter) else SCREEN):
+            part, size = "".join(letters), height * font(other).size
+            ink = [font(other).ink(letter) for letter in part]
+            width, inner = sum([letter[0] for letter in ink]) * size, part.strip(" ")
+            if inner:
+                spaces = len(part) - len(part.lstrip(" "))
+                inked = ink[spaces : spaces + len(inner)]
+                at = x + font(other).ink(" ")[0] * size * spaces
+                self.runs.append(Run(at, y, size, inner, sum([letter[0] for letter in inked]) * size, other))
+                top = max(top, y + max([letter[2] for letter in inked]) * size)
+                bottom = min(bottom, y + min([letter[1] for letter in inked]) * size)
+            x += width
         return x - start, top, bottom
 
     def ruled(self, group: Ruling, x: float, y: float, height: float, base: float, leans: bool) -> _Span:
