@@ -13,7 +13,7 @@ from itertools import count as numbers
 from typing import TypeAlias
 
 from ..scales.scale import Scale
-from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
+from .formats import FORMATS, STYLES, Format, Norm, drawing_area, reserved_boxes, usable
 from .packing import LEAST, STEPS, Cut, Placement, Size, Slicing, bare, inset, spread
 from .page import Page
 from .shapes import Group
@@ -27,10 +27,11 @@ TRIES, NEARLY = 60, 1.2  # orders that are tried for the only page; how much mor
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
-ENOUGH = {"A4": 0.51, "A3": 0.67, "A2": 0.67, "A1": 0.67}  # part of a page that views and title block should take
+ENOUGH = {"A4": 0.505, "A3": 0.655, "A2": 0.655, "A1": 0.655}  # part of a page that views and title block should take
 GROWN = 2.0  # times as large as before texts are at most that have larger letters, tables that are roomier
 KEPT = 8  # parts of the views of a page that are tried in reading order
 EMPTY = 0.116  # part of a page that may be one bare rectangle, between lines
+OVER = 0.44  # heights of a heading between its letters and the box of its view
 INK = 1.0, 0.5  # mm between the lines of a view and its box: of a figure, of a text
 # heights of rows, mm, and the part of the width of a page that tables take, as wide as the widest of them or more
 ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
@@ -479,13 +480,18 @@ class Pages:
         begins, first, nudged = begins_of(views), number == 0, self._nudged(page, number)
         best = self.short(nudged, number), nudged
         for place in (on_a_page, on_one_page):  # in another order only where none as one reads them is even
+            least = math.inf  # what had no room
             for again, loose in product(self._written(views, begins), (False, True)):
                 if not best[0]:
                     return best
+                if (area := _area_of(again)) >= least:
+                    continue
                 placed = place([view.size for view in again], self.sheet, self.norm, begins, first, loose)
-                if placed is not None:
-                    other = [*zip(again, placed, strict=True)]
-                    best = min(best, (self.short(other, number), other), key=lambda way: way[0])
+                if placed is None:
+                    least = area
+                    continue
+                other = [*zip(again, placed, strict=True)]
+                best = min(best, (self.short(other, number), other), key=lambda way: way[0])
         nudged = self._nudged(best[1], number)
         return min(best, (self.short(nudged, number), nudged), key=lambda way: way[0])
 
@@ -496,10 +502,11 @@ class Pages:
     def _lacks(self, page: Sequence[Standing], number: int) -> tuple[float, float, Box]:
         """Return by which part a page is too empty, and its largest bare rectangle too large, and that rectangle."""
         room, boxes = drawing_area(self.sheet, self.norm), [*reserved_boxes(self.sheet, self.norm, first=number == 0)]
+        over = OVER * STYLES[self.sheet.letters].heading
         for view, at in page:
             (left, low, right, high), edge = _box_of((view, at)), INK[bool(view.pieces)]
             below = BETWEEN * view.style.text if view.style and view.lines else 0.0  # where no line follows
-            boxes.append((left + edge, low + edge + below, right - edge, high - edge))
+            boxes.append((left + edge, low + edge + below, right - edge, high - over))
         hole, area = bare(room, boxes), _area([room])
         lacks = ENOUGH[self.sheet.letters] - _area(boxes) / area, _area([hole]) / area - EMPTY
         return max(0.0, lacks[0]), max(0.0, lacks[1]), hole
@@ -568,6 +575,8 @@ class Pages:
         told = [i for i in texts if not views[i].rows]
         rows = ((0.0, 0.0), *ROWS) if any(view.rows for view in views) else ((0.0, 0.0),)
         for some, by in (*product((texts, told, [i for i in told if i >= lead]), (1.0, 0.0)), ((), 0.0)):
+            if _area_of(views) + (GROWN - 1.0) * _area_of(views[i] for i in some) > CROWDED * wide * (y1 - y0):
+                continue
             own = self._lettered(views, some, by)
             for row, part in (way for way in rows if not way[1] or not some or some is texts):
                 widest = max(part * wide, *(view.size[0] for view in own if view.rows), 0.0)
