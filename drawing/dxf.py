@@ -86,6 +86,8 @@ def _new() -> Drawing:
 
 
 def _bytes(document: Drawing) -> bytes:
+    for kind in sorted(document.entitydb.dxf_types_in_use()):  # in one order: writing goes through them as a set has it
+        document.classes.add_class(kind)
     text = StringIO()
     with _undated():
         document.write(text)

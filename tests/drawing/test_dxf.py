@@ -11,6 +11,7 @@ import ezdxf
 import numpy as np
 import pytest
 from ezdxf.document import Drawing
+from ezdxf.entitydb import EntityDB
 from lxml import etree
 from shapely import LinearRing, Point
 
@@ -152,6 +153,15 @@ def test_letters_as_lines_need_no_font() -> None:
     root = etree.fromstring(sheet.svg().encode())
     assert not root.findall(".//{*}text")
     assert "font-face" not in sheet.svg()
+
+
+def test_bytes_do_not_hang_on_the_order_of_a_set(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sheet, found, kinds = kulman.sheet("nau-slider-crank", only="velocity"), set[bytes](), EntityDB.dxf_types_in_use
+    for down in (False, True):
+        monkeypatch.setattr(EntityDB, "dxf_types_in_use", lambda own, down=down: sorted(kinds(own), reverse=down))
+        (file,) = sheet.save(tmp_path / f"{down}.dxf")
+        found.add(file.read_bytes())
+    assert len(found) == 1
 
 
 def test_a_file_is_the_same_again_and_needs_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.ttLib import TTFont
-from hypothesis import example, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from kulman.drawing import letters
@@ -122,6 +122,8 @@ def test_every_text_is_as_high_as_its_ink_and_one_without_ink_has_no_height(mark
 
 @given(markups, markups)
 def test_widths_add_up(left, right):
+    local = [bool(re.search(r"[А-яҐґЄєІіЇїЁё]", part)) for part in (left, right)]
+    assume(local[0] == local[1])  # in a line of Cyrillic words Latin letters are symbols, which are slanted
     whole = lay_out(left + r"\u{}" + right, 3.5)  # the empty group keeps two scripts from being stacked
     assert whole.width == pytest.approx(lay_out(left, 3.5).width + lay_out(right, 3.5).width, abs=1e-9)
 
