@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from .units import converted, unit
 
 Floats = NDArray[np.floating[Any]]
-PART = 16384  # rows of text at a time
+PART = 4096  # rows of text at a time
 Method = Literal["__call__", "reduce", "reduceat", "accumulate", "outer", "at"]
 
 

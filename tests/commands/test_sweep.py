@@ -202,8 +202,8 @@ def test_a_drawing_of_very_many_positions_shows_some_of_them_and_says_so(
 
 
 def test_of_many_states_no_more_is_told_to_be_written_than_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    written, told, characters = [0], [0], series._characters
-    monkeypatch.setattr(series, "_characters", lambda part: (written.append(len(part)), characters(part))[1])
+    written, told, dumps = [0], [0], series.orjson.dumps
+    monkeypatch.setattr(series.orjson, "dumps", lambda part, **how: (written.append(part.size), dumps(part, **how))[1])
     states = solve_many(TASK, phi=np.linspace(0.0, 6.0, 2 * tables.MANY), names="V_B,omega_2")
     ahead = [0]
     token = tables.watching.set(lambda done, whole: (told.append(done), ahead.append(sum(told) - sum(written)))[0])
