@@ -3,52 +3,47 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
-from heapq import heappop, heappush
+from functools import cache, lru_cache
 from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
-from itertools import count as numbers
-from typing import TypeAlias
 
 from ..scales.scale import Scale
 from .formats import FORMATS, STYLES, Format, Norm, drawing_area, reserved_boxes, usable
-from .packing import LEAST, STEPS, Cut, Placement, Size, Slicing, bare, inset, spread
+from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
 from .page import Page
 from .shapes import Group
-from .tables import BETWEEN, after, larger, narrower, part_of, roomier
+from .tables import after, larger, narrower, part_of, roomier
 from .text import Box
 from .titleblock import Stamp, frame_shapes
 from .view import View
 
 HELD, BESIDE = 9, 1  # bonds of the corners to the views beside them, of a text to the figure before it
+SOON = 5  # views from which one may stand on a page before its turn
 TRIES, NEARLY = 60, 1.2  # orders that are tried for the only page; how much more height than it has all may need
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
-ENOUGH = {"A4": 0.505, "A3": 0.655, "A2": 0.655, "A1": 0.655}  # part of a page that views and title block should take
-GROWN = 2.0  # times as large as before texts are at most that have larger letters, tables that are roomier
+TABLE, LEAD = range(2)  # kinds of texts that may have larger letters, beside what tells of the work
+MANY = 3  # pages on which views may come in another order
+ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
+ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
+GROWN = 2.0  # times as large as before are texts with larger letters
+CROWDED = 0.85  # part of a page that views, with what is between them, never fill
+HIGH = 0.0, 6.5, 8.0  # mm of the rows of its tables at least
+LARGE = {TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TABLE, TOLD}, {TOLD}, {TABLE, LEAD}, {TABLE}, {LEAD}, set[int]()
 KEPT = 8  # parts of the views of a page that are tried in reading order
-EMPTY = 0.116  # part of a page that may be one bare rectangle, between lines
+BARE = 0.105  # part of a page that may be one bare rectangle
+EMPTY = 0.116  # the same, between lines
+INK = {FIGURE: 1.0, TEXT: 0.5, TOLD: 0.5}  # mm between the lines of a view and its box
 OVER = 0.44  # heights of a heading between its letters and the box of its view
-INK = 1.0, 0.5  # mm between the lines of a view and its box: of a figure, of a text
 # heights of rows, mm, and the part of the width of a page that tables take, as wide as the widest of them or more
 ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
 NARROWEST = 0.38  # part of the width of a page that texts beside a figure have at least
 PARTS, NUDGES = (0.25, 0.5, 0.75), 2  # of its free way that a view is moved, and how often each at most
-PIECES, LATER = 2, 2  # rows or lines at least on each page; whole texts that come late at most
-CROWDED = 0.85  # part of a page that views with their gaps never take
-CLOSEST = 0.95  # part of a page that views with their gaps may take
-TRIED, EVENED = 150, 400  # pages that are looked at to find some, to find even ones
-LONG = 0.5  # part of a page from which a text is long
-GROWTH = 8  # of these that one with larger letters is worth
-HOPE = 0.3  # part of what a page is short of that may be left where letters are larger
-SPLIT = 0.15, 0.3, 0.5, 0.7, 0.85  # of its rows or lines that a text has on the page where it begins
-FARTHER = 0.03  # parts of a page that may be short so that pages come farther
-LATEST = 0.3  # part of a page that a text is worth that comes yet later
-Standing: TypeAlias = tuple[View, Placement]  # a view and where it stands
-Beginning: TypeAlias = Callable[[Sequence[View]], list[int]]  # what begins with each view
+FAR = 2  # pages that a table may move
+ROUNDS, GAIN = 12, 1e-3  # moves of views to other pages, and parts of a page that each is worth
+PIECES = 2  # rows or lines at least on each page
 
 
 def on_a_page(
@@ -64,30 +59,23 @@ def on_a_page(
     The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. A text stands
     beside the figure before it where that can be; `begins` are as of `Pages`, and `loose` as of `spread`.
     """
-    found = _cut(tuple(sizes), sheet, norm, tuple(begins), first)
-    if found is None:
+    placed = _on_a_page(tuple(sizes), sheet, norm, tuple(begins), first, loose)
+    return None if placed is None else [*placed]
+
+
+@lru_cache(maxsize=256)
+def _on_a_page(
+    sizes: tuple[Size, ...], sheet: Format, norm: Norm, begins: tuple[int, ...], first: bool, loose: bool
+) -> tuple[Placement, ...] | None:
+    """Place them, as `on_a_page` says; what was tried is kept, since pages and orders that are tried ask it again."""
+    page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
+    if not page.fits:
         return None
-    page, (x0, y0), begun, cut = found
-    room, corners = page.room, (len(sizes) + begun, 0 if begun else -1)
+    cut, room, corners = page.cut(), page.room, (len(sizes) + begun, 0 if begun else -1)
     edge = inset(cut, page.sizes, room[0])
     spots = spread(cut, page.sizes, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners, loose)
     places = {i: (x, y) for i, x, y in spots}
-    return [Placement(x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
-
-
-@lru_cache(maxsize=512)
-def _cut(
-    sizes: tuple[Size, ...], sheet: Format, norm: Norm, begins: tuple[int, ...], first: bool
-) -> tuple[Slicing, Size, int, Cut] | None:
-    """Return how a page is cut; what was tried is kept, since pages and orders that are tried ask it again."""
-    (x0, y0, x1, y1) = usable(sheet, norm)
-    room = x1 - x0 + LEAST, y1 - y0 + LEAST
-    if sum((w + LEAST) * (h + LEAST) for w, h in sizes) > room[0] * room[1]:
-        return None
-    if sum(h + LEAST for w, h in sizes if 2.0 * (w + LEAST) > room[0]) > room[1]:  # no two of them stand side by side
-        return None
-    page, corner, begun = _cuts(sizes, sheet, norm, begins, first)
-    return (page, corner, begun, page.cut()) if page.fits else None
+    return tuple(Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes)))
 
 
 def _cuts(
@@ -198,340 +186,411 @@ def _moved(order: Sequence[int], i: int, j: int) -> list[int]:
 
 
 def arrange(
-    views: Sequence[View],
-    sheet: Format,
-    norm: Norm,
-    goes_on: str,
-    begins: Beginning | None = None,
-    most: int = 0,
-) -> list[list[Standing]] | None:
-    """Place views in turn on as few pages of `sheet` as hold them, or on so many at `most`.
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), count: int = 0
+) -> list[Placement] | None:
+    """Place views of these sizes on as few pages of `sheet` as hold them, or on `count`; `begins` as of `Pages`.
 
-    `goes_on` and `begins` are as of `Pages`. None if a view has no room on a page.
+    Of two or three pages each is a run of the views, and ends where most begins anew, if it is full enough. Of more,
+    and where runs take more pages, a page that has no room for the next view may have texts that `SOON` follow. Where
+    that leaves a page too empty, high views stand before low ones on it. Where `count` pages do not hold them they take
+    more. None if a view has no room on a page.
     """
-    if not views:
-        return []
-    pages = Pages(views, sheet, norm, goes_on, begins or begins_of)
-    best, count = None, most or len(views) + pages.least
-    while count >= pages.least and (found := pages.found(count)) is not None:
-        best, count = found[0], 0 if most else len(found[0]) - 1
-    read = pages.found(len(best), place=on_a_page) if best is not None else None  # each page as one reads it
-    return read[0] if read is not None and len(read[0]) == len(best or ()) else best
+    strict, loose = (Pages(sizes, sheet, norm, begins, loose=loose) for loose in (False, True))
+    packed = strict.packed()
+    if packed is None or not max(last(packed), count - 1) > 0:
+        return packed
+    end, ways = (count - 1 if count else last(packed)), [packed]
 
+    def worth(places: list[Placement]) -> tuple[bool, int, float]:
+        return last(places) == end, -last(places), min(FULL, strict.least(places))
 
-def in_turn(views: Sequence[View]) -> list[View]:
-    """Return views as they come on several pages: a text or a table follows the figure that it is about.
-
-    Where it is not said which one that is, it stays where it is.
-    """
-    names = {"", *(view.name for view in views)}
-    moving = [view for view in views if view.about is not None and view.about in names]
-    turn = [*(view for view in moving if not view.about), *(view for view in views if view not in moving)]
-    for view in (view for view in moving if view.about):
-        at = next(i for i, one in enumerate(turn, start=1) if one.name == view.about)
-        turn.insert(at + sum(1 for _ in takewhile(lambda one: one.pieces, turn[at:])), view)
-    return turn
-
-
-@dataclass(frozen=True, slots=True)
-class _Leaf:
-    """A page that may come: its views, of one that is `broken` so many pieces, and where the others go on after it.
-
-    The views in turn up to the `end` have come then, but those that are `late`.
-    """
-
-    number: int
-    views: tuple[View, ...]
-    end: int
-    late: tuple[View, ...] = ()
-    broken: tuple[int, int] | None = None
-    before: _Leaf | None = None
+    for pages in (strict, loose):
+        if 0 < end < MANY and (runs := pages.runs(0, 0, end)) is not None:
+            ways.insert(0 if pages is strict else len(ways), runs)
+        best = max(ways, key=worth)
+        if not begins or (last(best) == end and strict.least(best) >= FULL):
+            break
+        if pages is strict and (more := loose.packed()) is not None:
+            ways.append(more)
+    return max(ways, key=worth)
 
 
 @dataclass(slots=True)
 class Pages:
-    """The ways to part views in turn into pages of `sheet`, and how each page is laid out.
+    """The ways to part views of these sizes into pages of `sheet`.
 
-    A text or a table stands on the page of its figure or late, on the next one, or breaks between them: what `goes_on`
-    has its heading so. A page ends where most `begins`, if it is full enough: a part of the work is more than a group,
-    and that than a figure. One that is too empty, or has too large a bare rectangle, has larger letters, roomier
-    tables, views that are moved aside.
+    `begins` say how much begins with each view: a part of the work is more than a group, and that than a figure; a
+    table is nothing of its own, and a text belongs to the figure before it. Where nothing is said, all may stand before
+    their turn as tables may. Where pages are `loose`, high views stand before low ones on a page that does not hold
+    them in order, and tables on any.
     """
 
-    views: Sequence[View]
+    sizes: Sequence[Size]
+    sheet: Format
+    norm: Norm
+    begins: Sequence[int] = ()
+    loose: bool = False
+    _tried: dict[tuple[tuple[int, ...], bool], list[Placement] | None] = field(default_factory=dict)
+
+    def tried(self, own: Sequence[int], page: int) -> list[Placement] | None:
+        """Place some of the views, by number, on one page."""
+        key = tuple(own), page == 0
+        if key not in self._tried:
+            x0, y0, x1, y1 = usable(self.sheet, self.norm)
+            sizes = [self.sizes[i] for i in own]
+            fits = sum((w + LEAST) * (h + LEAST) for w, h in sizes) <= (x1 - x0 + LEAST) * (y1 - y0 + LEAST)
+            begins = [self.begins[i] for i in own] if self.begins else ()
+            paper = self.sheet, self.norm
+            if not fits:
+                self._tried[key] = None
+            elif self.loose:
+                self._tried[key] = on_one_page(sizes, *paper, begins, page == 0)
+            else:
+                self._tried[key] = on_a_page(sizes, *paper, begins, page == 0)
+        return [replace(place, page=page) for place in placed] if (placed := self._tried[key]) is not None else None
+
+    def fill(self, own: Iterable[int], page: int) -> float:
+        """Return the part of a page inside its frame that views and title block take."""
+        boxes = reserved_boxes(self.sheet, self.norm, first=page == 0)
+        taken = sum(math.prod(self.sizes[i]) for i in own) + sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes)
+        x0, y0, x1, y1 = drawing_area(self.sheet, self.norm)
+        return taken / ((x1 - x0) * (y1 - y0))
+
+    def least(self, places: Sequence[Placement]) -> float:
+        """Return the fill of the page, but for the last one, that is least filled."""
+        begin, end = places[0].page, last(places)
+        own = ([i for i, place in enumerate(places) if place.page == page] for page in range(begin, end))
+        return min(map(self.fill, own, range(begin, end)), default=1.0)
+
+    def runs(self, begin: int, page: int, most: int) -> list[Placement] | None:
+        """Place the views from this one on in runs on the pages from this one to the last one that there may be."""
+        count = len(self.sizes)
+        if page == most:
+            return self.tried(range(begin, count), page)
+
+        def worth(end: int) -> tuple[int, int]:  # none is half empty for what begins
+            full = self.fill(range(begin, end), page) >= FULL
+            return (2 + (self.begins[end] if self.begins else FIGURE)) * full, end
+
+        ends = (end for end in range(begin + 1, count) if self.fill(range(begin, end), page) <= 1.0)
+        for end in sorted(ends, key=worth, reverse=True):
+            own = self.tried(range(begin, end), page)
+            if own is not None and (others := self.runs(end, page + 1, most)) is not None:
+                return own + others
+        return None
+
+    def packed(self) -> list[Placement] | None:
+        """Place each view on the first page that has room, but that one that follows soon may stand before it."""
+        places: dict[int, Placement] = {}
+        page = 0
+        while rest := [i for i in range(len(self.sizes)) if i not in places]:
+            own, placed = self._most(rest, page)
+            if placed is None:
+                return None
+            for i in rest[len(own) :] if self.loose else rest[len(own) : len(own) + SOON]:
+                kind = self.begins[i] if self.begins else TEXT
+                free = kind == TEXT or (kind == TOLD and i - 1 in {*own, *places})
+                if free and (more := self.tried([*own, i], page)) is not None:
+                    own, placed = [*own, i], more
+            places |= dict(zip(own, placed, strict=True))
+            page += 1
+        return [places[i] for i in range(len(self.sizes))]
+
+    def _most(self, rest: Sequence[int], page: int) -> tuple[list[int], list[Placement] | None]:
+        """Return the longest run of these views that one page holds: it holds every shorter one."""
+        least, most = 0, len(rest)
+        held: list[Placement] | None = None
+        while least < most:
+            middle = (least + most + 1) // 2
+            if (placed := self.tried(rest[:middle], page)) is not None:
+                held, least = placed, middle
+            else:
+                most = middle - 1
+        return [*rest[:least]], held
+
+
+Standing = tuple[View, Placement]  # a view and where it stands
+
+
+@dataclass(frozen=True, slots=True)
+class _Breaking:
+    """Breaks tables and texts of later pages for a page that were else too empty; what `goes_on` has its heading so."""
+
     sheet: Format
     norm: Norm
     goes_on: str
-    begins: Beginning
-    _place: Callable[..., list[Placement] | None] = on_one_page
-    _fewest: list[int] = field(init=False)  # pages that views in turn from each on take at least
-    _parted: dict[tuple[int, int], list[View]] = field(default_factory=dict)
+
+    def filled(self, pages: list[list[Standing]]) -> list[list[Standing]]:
+        """Return pages with as much of the next texts as each has room for, where views left it too empty."""
+        pages = [*pages]
+        for number in range(len(pages) - 1):
+            while self._is_empty(pages[number], number):
+                told = {k: begins_of(view for view, _ in pages[k]) for k in range(number + 1, len(pages))}
+                later = sorted(
+                    ((k, i) for k in told for i in range(len(told[k]))), key=lambda at: told[at[0]][at[1]] == TOLD
+                )
+                moves = ((k, self._moved(pages[number], number, pages[k], i, k)) for k, i in later)
+                ways = ((k, *move) for k, move in moves if move and (move[1] or k == len(pages) - 1))
+                if (found := next(ways, None)) is None:
+                    break
+                pages[number], pages[found[0]] = found[1:]
+        return self._without_rest(pages[: 1 + max(k for k, page in enumerate(pages) if page)])
+
+    def _without_rest(self, pages: list[list[Standing]]) -> list[list[Standing]]:
+        """Return pages without the last one where it has but a table, or the rest of one, that has room before it."""
+        *before, end = pages
+        rest = end[0][0]
+        if len(end) > 1 or not rest.pieces:
+            return pages
+        parts = [
+            (k, i) for k, page in enumerate(before) for i, (view, _) in enumerate(page) if view.of == rest.of != ""
+        ]
+        for number in reversed(range(len(before))):
+            changed = {number: [view for view, _ in before[number]]}
+            if parts and number < (k := parts[-1][0]):  # it begins there, and goes on where it began
+                (_, i), count = parts[-1], rest.pieces
+                other = changed[k] = [view for view, _ in before[k]]
+                whole = after(other[i], rest)
+                changed[number].append(part_of(whole, 0, count, "".join(other[i].heading)))
+                other[i] = part_of(whole, count, whole.pieces, "".join(rest.heading))
+                if len(parts) > 1:
+                    continue
+            elif parts and number == parts[-1][0]:
+                changed[number][parts[-1][1]] = after(changed[number][parts[-1][1]], rest)
+            else:
+                changed[number].append(rest)
+            placed = {k: page for k, views in changed.items() if (page := self._placed(views, k)) is not None}
+            if len(placed) == len(changed):
+                return [placed.get(k, page) for k, page in enumerate(before)]
+        return pages
+
+    def _is_empty(self, page: Sequence[Standing], number: int) -> bool:
+        pages = Pages([view.size for view, _ in page], self.sheet, self.norm)
+        return pages.fill(range(len(page)), number) < ENOUGH[self.sheet.letters]
+
+    def _moved(
+        self, page: Sequence[Standing], number: int, other: Sequence[Standing], i: int, k: int
+    ) -> tuple[list[Standing], list[Standing]] | None:
+        """Return a page with as much of a text of another one as it has room for, and that other one without it.
+
+        Whatever stands alone may move, too; of one table no two parts stand on a page but to spare another page.
+        """
+        (whole, at), own = other[i], [view for view, _ in page]
+        if len(other) > 1 and whole.of in {view.of for view in own if view.of}:
+            return None
+        before, after = ([view for view, _ in part] for part in (other[:i], other[i + 1 :]))
+        if (whole.pieces or len(other) == 1) and (placed := self._placed([*own, whole], number)):
+            return placed, self._placed([*before, *after], k) or [*other[:i], *other[i + 1 :]]
+        found, said = None, "".join(whole.heading)
+        for count in range(PIECES, whole.pieces - PIECES + 1):
+            if (placed := self._placed([*own, part_of(whole, 0, count, said)], number)) is None:
+                break
+            found = placed, count
+        if found is None:
+            return None
+        goes_on = said if whole.of else self.goes_on.format(heading=said)  # of a part its heading says so already
+        tail = part_of(whole, found[1], whole.pieces, goes_on)
+        left = self._placed([*before, tail, *after], k)
+        if left is None:
+            below = replace(at, y=at.y + whole.size[1] - tail.size[1])
+            if not self._is_clear(tail, below, (*other[:i], *other[i + 1 :])):
+                return None
+            left = [*other[:i], (tail, below), *other[i + 1 :]]
+        return found[0], left
+
+    def _is_clear(self, view: View, at: Placement, others: Iterable[Standing]) -> bool:
+        """Whether a view at a place, by a longer heading wider than before, is on the page and covers no other."""
+        end, (x0, _, x1, _) = at.x + view.size[0], usable(self.sheet, self.norm)
+        top = at.y + view.size[1]
+        return (
+            x0 <= at.x
+            and end <= x1
+            and all(
+                end <= place.x or place.x + one.size[0] <= at.x or top <= place.y or place.y + one.size[1] <= at.y
+                for one, place in others
+            )
+        )
+
+    def _placed(self, views: Sequence[View], number: int) -> list[Standing] | None:
+        sizes = [view.size for view in views]
+        placed = on_one_page(sizes, self.sheet, self.norm, begins_of(views), number == 0)
+        return None if placed is None else [*zip(views, placed, strict=True)]
+
+
+def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
+    """Return the views of a page at places in reading order, as many from the first one on as can be.
+
+    The others come as on the only page: figures before tables, or high ones before low ones.
+    """
+    views, count = [view for view, _ in page], len(page)
+    begins = begins_of(views)
+    for kept in range(count, 1, -max(1, count // KEPT)):
+        rest = sorted(range(kept, count), key=lambda i: -views[i].size[1])
+        figures = [i for i in range(kept, count) if begins[i] == FIGURE]
+        for order in dict.fromkeys(
+            ((*range(kept), *figures, *(i for i in rest if i not in figures)), (*range(kept), *rest))
+        ):
+            sizes, kinds = [views[i].size for i in order], [begins[i] for i in order]
+            placed = on_a_page(sizes, sheet, norm, kinds, first)
+            if placed is not None:
+                return page if kept == count else [(views[i], place) for i, place in zip(order, placed, strict=True)]
+    return page
+
+
+def _box_of(standing: Standing) -> Box:
+    """Return the box that a view fills where it stands."""
+    view, at = standing
+    return at.x, at.y, at.x + view.size[0], at.y + view.size[1]
+
+
+def _short(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> float:
+    """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
+    room, boxes = drawing_area(sheet, norm), [*reserved_boxes(sheet, norm, first=first)]
+    over = OVER * STYLES[sheet.letters].heading
+    for standing, kind in zip(page, begins_of(view for view, _ in page), strict=True):
+        (left, low, right, high), edge = _box_of(standing), INK[kind]
+        boxes.append((left + edge, low + edge, right - edge, high - over))
+    area = (room[2] - room[0]) * (room[3] - room[1])
+    fill = sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / area
+    return max(0.0, ENOUGH[sheet.letters] - fill) + max(0.0, bare(room, boxes) / area - EMPTY)
+
+
+@dataclass(slots=True)
+class _Evening:
+    """Evens out pages that are too empty or have too large a bare rectangle: letters are larger there, tables roomier.
+
+    Where that is not enough, views move between pages; `order` has the names of all in reading order. Those of the
+    `lead`, with which the first page begins, stay there; what `goes_on` from a page before has its heading so.
+    """
+
+    sheet: Format
+    norm: Norm
+    order: Sequence[str]
+    lead: Collection[str]
+    goes_on: str
+    _parted: dict[tuple[int, int], tuple[View, list[View]]] = field(default_factory=dict)
     _found: dict[tuple[int, ...], tuple[float, list[Standing]] | None] = field(default_factory=dict)
     _made: dict[tuple[int, float, float], View] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        """Bring views in turn, and see how many pages their figures take alone."""
-        self.views = views = in_turn(self.views)
-        figures = [i for i, view in enumerate(self.views) if not view.pieces]
-        ends, self._fewest = len(figures), [0] * (len(self.views) + 1)
-        for k in reversed(range(len(figures))):
-            while ends > k + 1 and not self._laid(_Leaf(1, tuple(views[i] for i in figures[k:ends]), 0), False, False):
-                ends -= 1
-            later = figures[ends] if ends < len(figures) else len(self.views)
-            self._fewest[figures[k]] = 1 + self._fewest[later]
-        for i in reversed(range(len(self.views))):
-            self._fewest[i] = self._fewest[i] or self._fewest[i + 1]
+    def _short(self, page: Sequence[Standing], number: int) -> float:
+        return _short(page, self.sheet, self.norm, number == 0)
 
-    @property
-    def least(self) -> int:
-        """How many pages there are at least."""
-        return max(1, self._fewest[0], math.ceil(_most(sum(map(self._needs, self.views)))))
-
-    def _needs(self, view: View) -> complex:
-        """Return what a view needs of a page: of its area, and of its height where no two so wide are side by side."""
-        (wide, high), (x0, y0, x1, y1) = view.size, usable(self.sheet, self.norm)
-        block = reserved_boxes(self.sheet, self.norm, first=False)[0]
-        area = (x1 - x0 + LEAST) * (y1 - y0 + LEAST) - _area([block])
-        alone = 2.0 * wide + LEAST > x1 - x0 or high > y1 - y0
-        return complex((wide + LEAST) * (high + LEAST) / (CLOSEST * area), alone * (high + LEAST) / (y1 - y0 + LEAST))
-
-    def even(self, pages: Sequence[list[Standing]], enough: float = 0.0) -> tuple[list[list[Standing]], float]:
-        """Return pages like these, or as many others, with what they are short of: as little as can be found.
-
-        What is short of less than is `enough` is not looked for.
-        """
-        *others, end = pages
-        every = [self.grown(page, number) for number, page in enumerate(others)]
-        short = sum(own for own, _ in every)
-        better = None
-        if short and not enough:
-            better = self.found(len(pages), short, on_a_page)
-            if better is None or better[1]:
-                better = self.found(len(pages), better[1] if better else short) or better
-        return better or ([*(page for _, page in every), end], short)
-
-    def found(
-        self, count: int, most: float = 0.0, place: Callable[..., list[Placement] | None] = on_one_page
-    ) -> tuple[list[list[Standing]], float] | None:
-        """Return at most so many pages that are short of less than `most`, or of anything where that is 0.
-
-        Of the ways that are short of least the one that has come farthest goes on first; `place` lays out a page.
-        """
-        even, best, self._place = most > 0.0, None, place
-        begun, serial, tried = [*self.begins(self.views), PART], numbers(), set[tuple[int, ...]]()
-        reserved = [_area(reserved_boxes(self.sheet, self.norm, first=first)) for first in (False, True)]
-        whole, enough = _area([drawing_area(self.sheet, self.norm)]), ENOUGH[self.sheet.letters] if even else 0.0
-        farthest: dict[int, list[tuple[int, float]]] = defaultdict(list)  # where pages have come, and what is late then
-        heap: list[tuple[float, int, tuple[float, ...], int, float, bool | None, _Leaf]] = []
-        left = EVENED if even else TRIED
-
-        def add(leaf: _Leaf, cost: float, odd: int) -> None:
-            figures, texts = (
-                _area_of(view for view in leaf.views if bool(view.pieces) is kind) for kind in (False, True)
-            )
-            fill = (figures + texts + reserved[leaf.number == 0]) / whole
-            worth = (2 + begun[leaf.end]) * (fill >= FULL)
-            rank = odd, -worth, -fill
-            hope = 0.0 if self._ends(leaf) else max(0.0, enough - fill - (GROWN - 1.0) * texts / whole)
-            if not even or cost + hope < most:
-                # any pages, but texts on those where they belong; else the farther ones before those hardly shorter
-                first = cost + hope - FARTHER * leaf.number if even else cost // LATEST
-                heappush(heap, (first, -leaf.number, rank, next(serial), cost, False, leaf))
-
-        for page in self._next(None, count):
-            add(*page)
-        while heap and left > 0:
-            first, depth, rank, _, before, grown, leaf = heappop(heap)
-            if not even:
-                come = leaf.end, self._behind(leaf)
-                if any(end >= come[0] and behind <= come[1] for end, behind in farthest[leaf.number]):
-                    continue
-            if grown is not None:
-                left -= GROWTH if grown else 1
-                if (laid := self._laid(leaf, even, grown)) is None:
-                    continue
-                again = None if grown or not laid[0] else True
-                now = before + (HOPE if again else 1.0) * laid[0]
-                if even and now >= most:
-                    continue
-                if again or (even and now - FARTHER * leaf.number > first):
-                    way = now - FARTHER * leaf.number, depth, rank, next(serial), before if again else now, again, leaf
-                    heappush(heap, way)
-                    continue
-            else:
-                now = before
-            if self._ends(leaf):
-                best, most = (self._told(leaf, even), now), now
-                if not now or not even:
-                    break
-                continue
-            key = leaf.number, leaf.end, *map(id, self._late(leaf))
-            if key in tried:
-                continue
-            tried.add(key)
-            if not even:
-                farthest[leaf.number].append(come)
-            for other, late, odd in self._next(leaf, count):
-                add(other, now + late, odd)
-        return best
-
-    def _behind(self, leaf: _Leaf) -> float:
-        """Return what is late after a page, as parts of the next one."""
-        late = sum(map(self._needs, leaf.late))
-        if leaf.broken is not None:
-            view = leaf.views[leaf.broken[0]]
-            late = self._needs(view) * (1.0 - leaf.broken[1] / view.pieces)
-        return _most(late)
-
-    def _ends(self, leaf: _Leaf) -> bool:
-        """Whether nothing comes after a page."""
-        return leaf.end == len(self.views) and not leaf.late and leaf.broken is None
-
-    def _next(self, before: _Leaf | None, count: int) -> Iterator[tuple[_Leaf, float, int]]:
-        """Go through pages that may follow one, with what they are short of since texts come later than late.
-
-        With each it is told how odd it is that texts are late or break.
-        """
-        at, own, number = (before.end, self._late(before), before.number + 1) if before else (0, (), 0)
-        views, left = self.views, count - number - 1
-        needs = {id(view): self._needs(view) for view in (*own, *views[at:])}
-        due = next((i for i in range(at, len(views)) if not views[i].pieces), len(views))  # texts of figures before
-        begun = any(not view.pieces for view in views[:at])
-        for end in range(at + (not own), len(views) + 1):
-            stay, after = (*own, *views[at:end]), sum(needs[id(view)] for view in views[end:])
-            taken, free = sum(needs[id(view)] for view in stay), [v for v in views[due:end] if v.pieces and not v.of]
-            if _most(sum(needs[id(view)] for view in stay if not view.pieces)) > 1.0:
+    def evened(
+        self, parted: Sequence[Sequence[Standing]], pages: Sequence[list[Standing]]
+    ) -> tuple[list[list[Standing]], float]:
+        """Return pages, made of those that are `parted`, and what they are short of: as little as can be."""
+        end, places = len(pages) - 1, [*pages]
+        costs = [self._short(page, number) if number < end else 0.0 for number, page in enumerate(pages)]
+        if not any(costs):
+            return places, 0.0
+        own = [self._sorted(view for view, _ in page) for page in parted]
+        for number in (number for number in range(end) if costs[number]):
+            page = self._nudged(places[number], number)  # it may have places that no order of its views gives
+            ways = (self._short(page, number), page), self._best(own[number], number, end)
+            costs[number], places[number] = min((way for way in ways if way), key=lambda way: way[0])
+        for _ in range(ROUNDS if any(costs) else 0):
+            moves = (self._moved(own, costs, move) for move in self._moves(own, costs))
+            _, changed = max((move for move in moves if move), key=lambda move: move[0], default=(0.0, {}))
+            if not changed:
                 break
-            if self._fewest[end] > left:
-                continue
-            cost = LATEST * max(0, due - end) * begun
-            for late in (some for many in range(LATER + 1) for some in combinations(free, many)):
-                gone = sum(needs[id(view)] for view in late)
-                if _most(taken - gone) <= 1.0 and _most(after + gone) <= left:
-                    yield (
-                        _Leaf(number, tuple(view for view in stay if view not in late), end, late, None, before),
-                        cost,
-                        len(late),
-                    )
-            for i, view in enumerate(stay):
-                # one of several parts breaks where the next one comes on another page
-                if not view.pieces or (view.of and view.of in (other.of for other in stay[i + 1 :])):
-                    continue
-                before_all = i < len(own) + due - at  # it goes on yet later, or is what is given
-                if before_all and view.of and _most(needs[id(view)]) < LONG:
-                    continue
-                for pieces in sorted({round(part * view.pieces) for part in SPLIT}):
-                    gone = needs[id(view)] * (1.0 - pieces / view.pieces)
-                    if (
-                        PIECES <= pieces <= view.pieces - PIECES
-                        and _most(taken - gone) <= 1.0
-                        and _most(after + gone) <= left
-                    ):
-                        yield _Leaf(number, stay, end, (), (i, pieces), before), cost, 1 + before_all
+            for number, (views, cost, page) in changed.items():
+                own[number], costs[number], places[number] = views, cost, page
+        return places, sum(costs)
 
-    def _parts(self, leaf: _Leaf) -> list[View]:
-        """Return what stands on a page of the view that is broken, and the rest of it; nothing if none is."""
-        if leaf.broken is None:
-            return []
-        view, pieces = leaf.views[leaf.broken[0]], leaf.broken[1]
-        key, said = (id(view), pieces), "".join(view.heading)
+    def _moves(self, pages: Sequence[list[View]], costs: Sequence[float]) -> Iterator[tuple[int, int, int, int]]:
+        """Go through moves of a view to another page, one of both being short, or of so many of its pieces.
+
+        A figure keeps its turn, and leaves no page to texts alone; a part of a table keeps its turn, too.
+        """
+        for a, page in enumerate(pages):
+            begins = begins_of(page)
+            figures = [i for i, kind in enumerate(begins) if kind == FIGURE]
+            for i, b in product(range(len(page)), range(max(0, a - FAR), min(a + FAR + 1, len(pages)))):
+                kind, view = begins[i], page[i]
+                stays = len(page) == 1 or view.name in self.lead or (kind != TEXT and abs(a - b) > 1)
+                stays |= kind == FIGURE and (len(figures) == 1 or i != figures[-1 if b > a else 0])
+                if a == b or stays or not (costs[a] or costs[b]):
+                    continue
+                way = chain(*pages[min(a, b) : max(a, b) + 1])
+                if not (view.of and any(other.of == view.of and other is not view for other in way)):
+                    yield a, b, i, view.pieces
+                    if b < a and costs[b] and view.rows and not view.of:
+                        counts = {round(part * view.pieces) for part in PARTS}
+                        yield from ((a, b, i, n) for n in sorted(counts) if PIECES <= n <= view.pieces - PIECES)
+
+    def _moved(
+        self, pages: Sequence[list[View]], costs: Sequence[float], move: tuple[int, int, int, int]
+    ) -> tuple[float, dict[int, tuple[list[View], float, list[Standing]]]] | None:
+        """Return what a move gains, and the views of both pages with what these are short of then; None if nothing."""
+        (a, b, i, count), end = move, len(pages) - 1
+        moving, before = pages[a][i], costs[a] + costs[b]
+        goes, stays = self._parts(moving, count)
+        found = {}
+        for number, views in ((a, [*pages[a][:i], *stays, *pages[a][i + 1 :]]), (b, self._sorted([*pages[b], goes]))):
+            best = self._best(views, number, end)
+            if best is None or best[0] > before - GAIN:
+                return None
+            found[number] = views, *best
+            before -= best[0]
+        return before, found
+
+    def _parts(self, view: View, count: int) -> tuple[View, list[View]]:
+        """Return the first pieces of a view, so many, and what is left of it then."""
+        if count == view.pieces:
+            return view, []
+        key, said = (id(view), count), "".join(view.heading)
         if key not in self._parted:
-            goes_on = said if view.of else self.goes_on.format(heading=said)  # of a part its heading says so already
-            ends = (0, pieces, said), (pieces, view.pieces, goes_on)
-            self._parted[key] = [part_of(view, *end) for end in ends]
+            head = part_of(view, 0, count, said)
+            self._parted[key] = head, [part_of(view, count, view.pieces, self.goes_on.format(heading=said))]
         return self._parted[key]
 
-    def _late(self, leaf: _Leaf) -> tuple[View, ...]:
-        return (*leaf.late, *self._parts(leaf)[1:])
+    def _sorted(self, views: Iterable[View]) -> list[View]:
+        return sorted(views, key=lambda view: self.order.index(view.of or view.name))
 
-    def _laid(self, leaf: _Leaf, even: bool, grown: bool) -> tuple[float, list[Standing]] | None:
-        """Return what a page is short of that is to be `even`, and how it is laid out; None if it has no room.
-
-        What has `grown` is short of as little as can be.
-        """
-        views = [*leaf.views]
-        if leaf.broken is not None:
-            views[leaf.broken[0]] = self._parts(leaf)[0]
-        first = leaf.number == 0
-        key = first, even, grown, self._place is on_a_page, *map(id, views)
+    def _best(self, views: list[View], number: int, end: int) -> tuple[float, list[Standing]] | None:
+        """Return what a page of these views is short of at least, and how it is laid out so; None without room."""
+        key = number, number == end, *map(id, views)
         if key not in self._found:
-            placed = self._place([view.size for view in views], self.sheet, self.norm, begins_of(views), first)
-            self._found[key] = None
-            if placed is not None:
-                page = [*zip(views, placed, strict=True)]
-                short = self.short(page, leaf.number) if even and not self._ends(leaf) else 0.0
-                self._found[key] = self.grown(page, leaf.number) if grown else (short, page)
+            begins, first = begins_of(views), number == 0
+            best: tuple[float, list[Standing]] | None = None
+            for again in self._written(views, begins) if number < end else [views]:
+                sizes, paper = [view.size for view in again], (self.sheet, self.norm, begins, first)
+                for loose in (False, True):
+                    placed = on_one_page(sizes, *paper, loose)
+                    page = [] if placed is None else [*zip(again, placed, strict=True)]
+                    cost = self._short(page, number) if page and number < end else 0.0
+                    if page and (best is None or cost < best[0]):
+                        best = cost, page
+                    if best is not None and not best[0]:
+                        break
+                if best is None or not best[0]:
+                    break
+            if best is not None and best[0]:
+                nudged = self._nudged(best[1], number)
+                best = self._short(nudged, number), nudged
+            self._found[key] = best
         return self._found[key]
-
-    def _told(self, leaf: _Leaf | None, even: bool) -> list[list[Standing]]:
-        """Return the pages up to one."""
-        if leaf is None:
-            return []
-        page = self._laid(leaf, even, False)
-        if page and page[0]:
-            page = self._laid(leaf, even, True)
-        return [*self._told(leaf.before, even), *([page[1]] if page else [])]
-
-    def grown(self, page: list[Standing], number: int = 0) -> tuple[float, list[Standing]]:
-        """Return what a page is short of at least, and how it is laid out so."""
-        views, best = [view for view, _ in page], (self.short(page, number), page)
-        if not best[0]:
-            return best
-        begins, first, nudged = begins_of(views), number == 0, self._nudged(page, number)
-        best = self.short(nudged, number), nudged
-        for place in (on_a_page, on_one_page):  # in another order only where none as one reads them is even
-            least = math.inf  # what had no room
-            for again, loose in product(self._written(views, begins), (False, True)):
-                if not best[0]:
-                    return best
-                if (area := _area_of(again)) >= least:
-                    continue
-                placed = place([view.size for view in again], self.sheet, self.norm, begins, first, loose)
-                if placed is None:
-                    least = area
-                    continue
-                other = [*zip(again, placed, strict=True)]
-                best = min(best, (self.short(other, number), other), key=lambda way: way[0])
-        nudged = self._nudged(best[1], number)
-        return min(best, (self.short(nudged, number), nudged), key=lambda way: way[0])
-
-    def short(self, page: Sequence[Standing], number: int) -> float:
-        """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
-        return sum(self._lacks(page, number)[:2])
-
-    def _lacks(self, page: Sequence[Standing], number: int) -> tuple[float, float, Box]:
-        """Return by which part a page is too empty, and its largest bare rectangle too large, and that rectangle."""
-        room, boxes = drawing_area(self.sheet, self.norm), [*reserved_boxes(self.sheet, self.norm, first=number == 0)]
-        over = OVER * STYLES[self.sheet.letters].heading
-        for view, at in page:
-            (left, low, right, high), edge = _box_of((view, at)), INK[bool(view.pieces)]
-            below = BETWEEN * view.style.text if view.style and view.lines else 0.0  # where no line follows
-            boxes.append((left + edge, low + edge + below, right - edge, high - over))
-        hole, area = bare(room, boxes), _area([room])
-        lacks = ENOUGH[self.sheet.letters] - _area(boxes) / area, _area([hole]) / area - EMPTY
-        return max(0.0, lacks[0]), max(0.0, lacks[1]), hole
 
     def _nudged(self, page: list[Standing], number: int) -> list[Standing]:
         """Return a page with views a little aside, as long as that makes its largest bare rectangle smaller.
 
         Of two that stand one above the other one goes to the left and one to the right where either alone is no help.
         """
-        _, cost, hole = self._lacks(page, number)
-        for _ in range(NUDGES * len(page)):
-            if not cost:
-                break
+        cost = self._short(page, number)
+        for _ in range(NUDGES * len(page) if cost else 0):
             ways = [*self._ways(page, number)]
-            into = {way for way in ways if _meet(_box_of(page[way[0]]), hole, *way[1:])}
-            pairs = ((a, b) for a, b in combinations(ways, 2) if a[0] != b[0] and a[1] * b[1] < 0.0 and {a, b} & into)
-            for moves in ([way] for way in ways if way in into), map(list, pairs):
-                others = (other for some in moves if (other := self._aside(page, some)))
-                found = [(*self._lacks(other, number)[1:], other) for other in others]
-                least = min(found, key=lambda way: way[0], default=(cost, hole, page))
+            pairs = ((a, b) for a, b in combinations(ways, 2) if a[0] != b[0] and a[1] * b[1] < 0.0)
+            for moves in (([way] for way in ways), map(list, pairs)):
+                others = (self._aside(page, some) for some in moves)
+                found = [(self._short(other, number), k, other) for k, other in enumerate(others) if other]
+                least = min(found, key=lambda way: way[:2], default=(cost, 0, page))
                 if least[0] < cost:
                     break
             else:
                 break
-            cost, hole, page = least
+            cost, _, page = least
+            if not cost:
+                break
         return page
 
     def _ways(self, page: Sequence[Standing], number: int) -> Iterator[tuple[int, float, float]]:
@@ -565,70 +624,48 @@ class Pages:
         return [] if any(near) else other
 
     def _written(self, views: list[View], begins: Sequence[int]) -> Iterator[list[View]]:
-        """Go through the views with larger letters and roomier tables, from many to few.
-
-        Larger letters have all tables and texts, or all texts, or all but those with which the page begins.
-        """
+        """Go through the views with ever larger letters and roomier tables."""
         x0, y0, x1, y1 = usable(self.sheet, self.norm)
-        parted, lead, wide = any(view.of for view in views), len(_lead(begins)), x1 - x0
-        texts = [i for i, view in enumerate(views) if view.style and not view.of and (view.lines or not parted)]
-        told = [i for i in texts if not views[i].rows]
-        rows = ((0.0, 0.0), *ROWS) if any(view.rows for view in views) else ((0.0, 0.0),)
-        for some, by in (*product((texts, told, [i for i in told if i >= lead]), (1.0, 0.0)), ((), 0.0)):
-            if _area_of(views) + (GROWN - 1.0) * _area_of(views[i] for i in some) > CROWDED * wide * (y1 - y0):
-                continue
-            own = self._lettered(views, some, by)
-            for row, part in (way for way in rows if not way[1] or not some or some is texts):
-                widest = max(part * wide, *(view.size[0] for view in own if view.rows), 0.0)
-                again = [self._once(view, widest, row) if row and view.rows else view for view in own]
-                taken = sum((view.size[0] + LEAST) * (view.size[1] + LEAST) for view in again)
-                if taken < CROWDED * (wide + LEAST) * (y1 - y0 + LEAST):
-                    yield again
+        parted = any(view.of for view in views)
+        texts = [*((view.style and not view.of and (view.lines or not parted)) for view in views)]
+        larger_ones = [self._once(view, 0.0, 0.0) if text else view for view, text in zip(views, texts, strict=True)]
+        tables = any(view.rows for view in views)
+        for (row, part), own in product(((0.0, 0.0), *ROWS[: len(ROWS) * tables]), (views, larger_ones)):
+            widest = max(part * (x1 - x0), *(view.size[0] for view in own if view.rows), 0.0)
+            again = [self._once(view, widest, row) if row and view.rows else view for view in own]
+            if sum(math.prod(view.size) for view in again) < (x1 - x0) * (y1 - y0):
+                yield again
         figures = [view.size[0] for view, kind in zip(views, begins, strict=True) if kind == FIGURE]
-        for left in sorted({wide - LEAST - own for own in figures}):
-            if left >= NARROWEST * wide:
+        for left in sorted({x1 - x0 - LEAST - wide for wide in figures}):
+            if left >= NARROWEST * (x1 - x0):
                 yield [self._once(view, left, 0.0) if view.lines and view.size[0] > left else view for view in views]
 
-    def _lettered(self, views: Sequence[View], some: Sequence[int], wide: float) -> list[View]:
-        """Return views of which some have larger letters, in lines as much longer or not."""
-        return [self._once(view, -wide, 0.0) if i in some else view for i, view in enumerate(views)]
-
     def _once(self, view: View, wide: float, row: float) -> View:
-        """Return a table with rows so high, a text no wider than that, or, where `wide` is -1 or 0, larger letters."""
+        """Return a table with rows so high, a text no wider than that, or either with larger letters, once."""
         key = id(view), wide, row
         if key not in self._made:
-            inner = wide - 2.0 * INK[True]
-            changed = (
-                roomier(view, inner, row) if row else narrower(view, inner) if wide > 0.0 else larger(view, wide < 0.0)
-            )
+            inner = wide - 2.0 * INK[TEXT]
+            changed = roomier(view, inner, row) if row else narrower(view, inner) if wide else larger(view, True)
             self._made[key] = changed
         return self._made[key]
 
 
-def _box_of(standing: Standing) -> Box:
-    """Return the box that a view fills where it stands."""
-    view, at = standing
-    return at.x, at.y, at.x + view.size[0], at.y + view.size[1]
+def _without_holes(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
+    """Return a page with its views in the middle of their parts where that spares it a large bare rectangle.
 
-
-def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
-    """Return the views of a page at places in reading order, as many from the first one on as can be.
-
-    The others come as on the only page: figures before tables, or high ones before low ones.
+    They come from the upper left on in the order in which they stand.
     """
-    views, count = [view for view, _ in page], len(page)
-    begins = begins_of(views)
-    for kept in range(count, 1, -max(1, count // KEPT)):
-        rest = sorted(range(kept, count), key=lambda i: -views[i].size[1])
-        figures = [i for i in range(kept, count) if begins[i] == FIGURE]
-        for order in dict.fromkeys(
-            ((*range(kept), *figures, *(i for i in rest if i not in figures)), (*range(kept), *rest))
-        ):
-            sizes, kinds = [views[i].size for i in order], [begins[i] for i in order]
-            placed = on_a_page(sizes, sheet, norm, kinds, first)
-            if placed is not None:
-                return page if kept == count else [(views[i], place) for i, place in zip(order, placed, strict=True)]
-    return page
+    room, blocks = drawing_area(sheet, norm), reserved_boxes(sheet, norm, first=first)
+
+    def hole(page: list[Standing]) -> float:
+        return bare(room, [*map(_box_of, page), *blocks]) / ((room[2] - room[0]) * (room[3] - room[1]))
+
+    if (least := hole(page)) <= BARE:
+        return page
+    views = [view for view, _ in page]
+    placed = on_a_page([view.size for view in views], sheet, norm, begins_of(views), first, loose=True)
+    other = page if placed is None else [*zip(views, placed, strict=True)]
+    return other if hole(other) < least else page
 
 
 def begins_of(views: Iterable[View]) -> list[int]:
@@ -642,6 +679,11 @@ def begins_of(views: Iterable[View]) -> list[int]:
         before = view.of
         found.append(TOLD if told else TEXT if view.rows or view.lines else FIGURE)
     return found
+
+
+def last(places: Sequence[Placement]) -> int:
+    """Return the number of the last page, from 0."""
+    return max((place.page for place in places), default=-1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -687,35 +729,44 @@ class Drawn:
 
 def compose(
     views: Sequence[View],
-    pages: Sequence[list[Standing]],
+    places: Sequence[Placement],
     scales: Mapping[str, Scale],
     sheet: Format,
     norm: Norm,
     goes_on: str,
     reduction: float = 1.0,
     smaller: bool = False,
-    begins: Beginning | None = None,
 ) -> Drawn:
-    """Lay out the pages of `sheet` on which views stand; the last of several may be `smaller`.
+    """Set views at their places on the pages of `sheet`; the last of several pages may be `smaller`.
 
-    The heading of what `goes_on` from a page before has these words; `begins` is as of `Pages`.
+    The heading of what `goes_on` from a page before has these words.
     """
-    ways, short = Pages(views, sheet, norm, goes_on, begins or begins_of), 0.0
-    if len(pages) == 1:
-        places = {id(view): place for view, place in pages[0]}  # of the only page tables may stand at the end
-        pages = [ways.grown(_as_read([(view, places[id(view)]) for view in views], sheet, norm, True))[1]]
-    elif sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
-        pages, short = ways.even(pages)
-    sheets, pages = [sheet] * len(pages), [*pages]
-    if smaller and len(pages) > 1:
-        own = [view for view, _ in pages[-1]]
+    every, pages = range(last(places) + 1), [*zip(views, places, strict=True)]
+    parted = _Breaking(sheet, norm, goes_on).filled([[own for own in pages if own[1].page == k] for k in every])
+    sheets = [sheet] * len(parted)
+    if smaller and len(parted) > 1:
+        own = [view for view, _ in parted[-1]]
         for less in takewhile(lambda less: less is not sheet, FORMATS.values()):
-            placed = on_one_page([view.size for view in own], less, norm, begins_of(own), first=False)
-            if placed is not None:
-                sheets[-1], pages[-1] = less, [*zip(own, placed, strict=True)]
+            if (
+                placed := on_one_page([view.size for view in own], less, norm, begins_of(own), first=False)
+            ) is not None:
+                sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
                 break
-    drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in pages)
-    shown = [view for page in pages for view, _ in page]
+    done = []
+    for k, paper in enumerate(sheets):
+        on = paper, norm, k == 0
+        end = 0 < k == len(sheets) - 1
+        read = _as_read(_legible(parted[k], *on, end=end), *on)
+        done.append(read if end else _without_holes(read, *on))
+    short = 0.0
+    if len(parted) > 1 and sheets[-1] is sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
+        lead = [views[i].name for i in _lead(begins_of(views))]
+        evening = _Evening(sheet, norm, [view.of or view.name for view in views], lead, goes_on)
+        parted, short = evening.evened(parted, done)
+    else:
+        parted = done
+    drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
+    shown = [view for page in parted for view, _ in page]
     whole = {view.name: view for view in shown if not view.of}
     for view in (view for view in views if view.of):  # what came in parts
         whole[view.of] = after(whole[view.of], view) if view.of in whole else replace(view, of="")
@@ -724,19 +775,47 @@ def compose(
     return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction, short=short)
 
 
-def _meet(a: Box, b: Box, x: float, y: float) -> bool:
-    """Whether a box meets another one as soon as it is moved."""
-    return a[0] + x < b[2] and b[0] < a[2] + x and a[1] + y < b[3] and b[1] < a[3] + y
+def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: bool) -> list[Standing]:
+    """Return a page with larger letters and roomier tables where figures leave it too empty else.
 
+    All its tables and texts have them, or some, or those with which it begins, as the structure: as many as have room
+    in reading order without leaving the page short of what fills it. Where none do, as many as have room in any order,
+    but not on the last of several pages, at its `end`, which may be empty. Parts of what stands on another page, too,
+    stay as they are.
+    """
+    views = [view for view, _ in page]
+    begins, paper = begins_of(views), (sheet, norm)
+    full = Pages([view.size for view in views], *paper).fill(range(len(views)), 0 if first else 1)
+    if full >= ROOMY[sheet.letters] or any(view.of for view in views):
+        return page
+    lead = len([*takewhile(lambda kind: kind == TEXT, begins)])
+    of = [TABLE if view.rows else LEAD if i < lead else TOLD for i, view in enumerate(views)]
+    x0, y0, x1, y1 = usable(*paper)
 
-def _most(needs: complex) -> float:
-    """Return the greater of what views need of the area and of the height of a page."""
-    return max(needs.real, needs.imag)
+    @cache
+    def written(i: int, large: bool, wide: bool, row: float) -> View:
+        view = larger(views[i], wide) if large else views[i]
+        return roomier(view, 0.0, row) if row else view
 
-
-def _area(boxes: Iterable[Box]) -> float:
-    return sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes)
-
-
-def _area_of(views: Iterable[View]) -> float:
-    return sum(math.prod(view.size) for view in views)
+    room, without = (x1 - x0 + LEAST) * (y1 - y0 + LEAST), {on_a_page: CROWDED, on_one_page: CROWDED}
+    for place, kinds in product((on_a_page,) if end else (on_a_page, on_one_page), LARGE):
+        areas = (
+            math.prod(view.size) * (GROWN if view.style and k in kinds else 1.0)
+            for k, view in zip(of, views, strict=True)
+        )
+        if sum(areas) > CROWDED * (x1 - x0) * (y1 - y0):  # surely without room
+            continue
+        for row, wide in product((0.0,) if end or place is on_one_page else HIGH, (True, False)):
+            again = [written(i, k in kinds, wide and k != TABLE, row * (k == TABLE)) for i, k in enumerate(of)]
+            area = sum((view.size[0] + LEAST) * (view.size[1] + LEAST) for view in again)
+            if area >= without[place] * room:  # hardly with room, where less had none
+                continue
+            for loose in (False,) if end or place is on_one_page else (False, True):
+                placed = place([view.size for view in again], *paper, begins, first, loose)
+                found = [] if placed is None else [*zip(again, placed, strict=True)]
+                if found and (end or place is on_one_page or not _short(found, *paper, first)):
+                    return found
+                if not found:
+                    without[place] = area / room
+                    break
+    return page

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
@@ -19,9 +19,10 @@ from ..plans.solved import Solved
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from ..scales.scale import Choosers, Scale
-from .compose import Drawn, Standing, arrange, begins_of, compose, in_turn, on_one_page
+from .compose import Drawn, arrange, begins_of, compose, on_one_page
 from .extents import Rungs, from_format
 from .formats import FORMATS, Format, Norm, Style, room
+from .packing import Placement
 from .printed import DEGREES, value_text
 from .shapes import Circle, Group, Pen
 from .view import Canvas, View, numbered
@@ -33,7 +34,7 @@ ANSWERS = "answers"  # what is drawn in no stage, but with all the work: what it
 NUMBER = re.compile(r"\d+")
 Scene = TypeVar("Scene")
 Subject = TypeVar("Subject", bound=Solved)
-Found = tuple[Rungs, list[View], list[list[Standing]]]
+Found = tuple[Rungs, list[View], list[Placement]]
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}  # mm of lines of text, by the letters of a format
 
 
@@ -65,7 +66,7 @@ class Figure(Generic[Scene]):
     """One figure of a sheet: how it is drawn, the ladders of scale factors it depends on, the one that sizes it first.
 
     The first of its `stages` is there before any step, and on a blank. Its sentences have keys that begin with `key`;
-    without one nothing is told. A table or a text has no stages; `about` is as of its view.
+    without one nothing is told. A table or a text has no stages.
     """
 
     name: str
@@ -73,7 +74,6 @@ class Figure(Generic[Scene]):
     ladders: tuple[str, ...] = ()
     stages: tuple[Stage, ...] = ()
     key: str = ""
-    about: str | None = None
 
     def keys(self, scene: Any) -> dict[str, str]:
         """Return the stages that a scene has, in order, with the keys of their sentences."""
@@ -198,7 +198,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
         for figure in self.figures(scene, width):
             key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
             if key not in self._drawn:
-                self._drawn[key] = replace(figure.draw(scene), about=figure.about)
+                self._drawn[key] = figure.draw(scene)
             sized.append((self._drawn[key], figure))
         return sized
 
@@ -211,7 +211,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
         views = self.views(sheet, rungs)
         sizes = [view.size for view in views]
         found = on_one_page(sizes, sheet, self.contents.norm, begins_of(views)) if may_fit(views, sheet) else None
-        return None if found is None else (rungs, views, [[*zip(views, found, strict=True)]])
+        return None if found is None else (rungs, views, found)
 
     def draw(self, sheet: Format | None = None) -> Drawn:
         """Draw on `sheet`, or on the smallest format of which one page holds everything, from the usual one on.
@@ -226,10 +226,10 @@ class Fitting(ABC, Generic[Subject, Scene]):
             found = self.on_a_page(candidate, candidate is formats[-1])
             if found is not None:
                 break
-        rungs, views, pages = found or self.on_pages(candidate)
+        rungs, views, places = found or self.on_pages(candidate)
         scales, part = self.scales(candidate, rungs), self.part(rungs)
         goes_on = contents.words["heading.continued"]
-        return compose(views, pages, scales, candidate, contents.norm, goes_on, part, smaller=sheet is None)
+        return compose(views, places, scales, candidate, contents.norm, goes_on, part, smaller=sheet is None)
 
     def on_pages(self, sheet: Format) -> Found:
         """Take several pages in reading order.
@@ -246,11 +246,11 @@ class Fitting(ABC, Generic[Subject, Scene]):
                 return found
         raise InputError("sheet-too-small", format=sheet.name)
 
-    def arranged(self, sheet: Format, rungs: Rungs, most: int = 0) -> Found | None:
-        """Place views on as many pages as they need, or on so many at `most`."""
-        views = numbered(in_turn([view for view, _ in self.sized(sheet, rungs)]))
-        pages = arrange(views, sheet, self.contents.norm, self.contents.words["heading.continued"], most=most)
-        return None if pages is None else (rungs, views, pages)
+    def arranged(self, sheet: Format, rungs: Rungs) -> Found | None:
+        """Place views on as many pages as they need."""
+        views = self.views(sheet, rungs)
+        places = arrange([view.size for view in views], sheet, self.contents.norm)
+        return None if places is None else (rungs, views, places)
 
     def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> Rungs:
         """Return the first rungs, from these on, at which every view has room on a page of its own.

@@ -31,8 +31,9 @@ SLACK = 1e-9  # mm, for rounding
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Where a view stands: its lower left corner in mm (y up)."""
+    """Where a view stands: its page from 0, its lower left corner in mm (y up)."""
 
+    page: int
     x: float
     y: float
 
@@ -41,7 +42,7 @@ class Placement:
 class _Cut:
     """Parts of a page side by side from the left (`beside`) or one under another; a view is a part by its number."""
 
-    parts: tuple[Cut, ...]
+    parts: tuple[_Cut | int, ...]
     beside: bool
 
     def size(self, sizes: Sequence[Size]) -> Size:
@@ -51,15 +52,12 @@ class _Cut:
         return (sum(wide) + gaps, max(high)) if self.beside else (max(wide), sum(high) + gaps)
 
 
-Cut: TypeAlias = _Cut | int
-
-
-def _size_of(part: Cut, sizes: Sequence[Size]) -> Size:
+def _size_of(part: _Cut | int, sizes: Sequence[Size]) -> Size:
     """Return the width and the height of a part of a page."""
     return sizes[part] if isinstance(part, int) else part.size(sizes)
 
 
-def inset(part: Cut, sizes: Sequence[Size], wide: float) -> float:
+def inset(part: _Cut | int, sizes: Sequence[Size], wide: float) -> float:
     """Return how far columns on a page that is so wide keep from its edges, mm: where much is left between them.
 
     Where yet more is left, a text under a figure must not come nearer to that of the next column.
@@ -71,7 +69,7 @@ def inset(part: Cut, sizes: Sequence[Size], wide: float) -> float:
 
 
 def spread(
-    part: Cut,
+    part: _Cut | int,
     sizes: Sequence[Size],
     corner: Size,
     room: Size,
@@ -110,25 +108,15 @@ def spread(
             y -= own_high + between
 
 
-def bare(room: Box, taken: Sequence[Box]) -> Box:
-    """Return the largest rectangle in a room that none of the boxes touches."""
+def bare(room: Box, taken: Sequence[Box]) -> float:
+    """Return the area of the largest rectangle in a room that none of the boxes touches, mm^2."""
     x0, y0, x1, y1 = room
-    most, best, low = 0.0, (x0, y0, x0, y0), sorted(taken, key=lambda box: box[1])
+    best, low = 0.0, sorted(taken, key=lambda box: box[1])
     for left, right in product({x0, *(box[2] for box in taken)}, {x1, *(box[0] for box in taken)}):
-        wide = right - left
-        if wide * (y1 - y0) <= most:
-            continue
-        top = y0
-        for a, bottom, b, end in low:
-            if a < right and b > left:
-                if wide * (bottom - top) > most:
-                    most, best = wide * (bottom - top), (left, top, right, bottom)
-                if end > top:
-                    top = end
-                    if wide * (y1 - top) <= most:
-                        break
-        if wide * (y1 - top) > most:
-            most, best = wide * (y1 - top), (left, top, right, y1)
+        if (right - left) * (y1 - y0) > best:
+            top = y0
+            for box in (*(box for box in low if box[0] < right and box[2] > left), (x0, y1, x1, y1)):
+                best, top = max(best, (right - left) * (box[1] - top)), max(top, box[3])
     return best
 
 
@@ -171,11 +159,11 @@ class Slicing:
         """Whether the room holds all views."""
         return bool(self.sizes) and self.high <= STEPS
 
-    def cut(self) -> Cut:
+    def cut(self) -> _Cut | int:
         """Return one way to cut the room, where it holds all views."""
         return self._cut(0, len(self.sizes), STEPS, STEPS)
 
-    def _cut(self, i: int, j: int, wide: int, high: int) -> Cut:
+    def _cut(self, i: int, j: int, wide: int, high: int) -> _Cut | int:
         """Return how a part of the room is cut for a run of views: where bonds are least, then where room is left."""
         if j == i + 1:
             return i

@@ -426,7 +426,7 @@ def card_of_case(case: Case, drawing: Drawn) -> Sheet:
         views, places = next((way for way in ways if way[1] is not None), (views, None))
     if places is None:
         raise InputError("sheet-too-small", format=drawing.format)
-    card = compose(views, [[*zip(views, places, strict=True)]], drawing.scales, drawing.sheet, drawing.norm, goes_on="")
+    card = compose(views, places, drawing.scales, drawing.sheet, drawing.norm, goes_on="")
     return replace(sheet_of(case, replace(card, begins=begins), stamp_of(case)), warnings=())
 
 

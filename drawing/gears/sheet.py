@@ -13,6 +13,7 @@ from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
 from ...scales.scale import Choosers, Fixed, From, Scale, steps
+from ..compose import last
 from ..extents import Rungs, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents
 from ..formats import FORMATS, STYLES, Format, room
@@ -103,7 +104,7 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
                 yield meshing_view.NEAR
             yield cutting_view.FIGURE
         if GEOMETRY_PART in plans:
-            yield Figure("data", text.data_table, about=MESHING)
+            yield Figure("data", text.data_table)
         if MESHING_PART in plans:
             yield action_view.ACTION_FIGURE
         if GEOMETRY_PART in plans:
@@ -131,11 +132,9 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
             first[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
         first = self._as_wanted(self.fitted(sheet, self._as_wanted(first, sheet)), sheet)
         while True:
-            fewest: Found | None = None
-            for more in SMALLER:
-                most = len(fewest[2]) - 1 if fewest else 0
-                fewest = self.arranged(usual, self._lowered(first, more), most) or fewest
-            if fewest and (found := fewest if sheet == usual else self.arranged(sheet, fewest[0])):
+            ways = [own for more in SMALLER if (own := self.arranged(usual, self._lowered(first, more)))]
+            rungs = min(ways, key=lambda found: last(found[2]))[0] if ways else first
+            if ways and (found := self.arranged(sheet, rungs)):
                 return found
             if not self.has_next(first, "mu_l"):
                 raise InputError("sheet-too-small", format=sheet.name)

@@ -10,6 +10,7 @@ from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PAR
 from ...plans.hoist.model import CIRCLE
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Choosers, From, Scale, steps
+from ..compose import last
 from ..extents import Rungs, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents
 from ..formats import FORMATS, STYLES, Format
@@ -95,7 +96,7 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         smaller, stated = self.lower(self.lower(self.wanted, SCALES[SCHEME]), SCALES[CIRCLE]), self.stated
         ways = (own | {"part": part} for part in range(len(PARTS)) for own in (self.wanted, smaller))
         self.stated = False
-        found = min((self.in_order(FORMATS[sheet.name], rungs) for rungs in ways), key=lambda way: len(way[2]))
+        found = min((self.in_order(FORMATS[sheet.name], rungs) for rungs in ways), key=lambda way: last(way[2]))
         if not stated:
             return found
         self.stated = True
@@ -111,13 +112,17 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         yield Figure("givens", partial(text.data_table, stated=self.stated))
         if SCHEME_PART in plans:
             yield from (scheme_view.SCHEME_FIGURE, scheme_view.MODEL)
-        drawn: list[HoistFigure] = [diagrams_view.FORCES_FIGURE] * (FORCES_PART in plans)
+        yield Figure("results", text.results_table)
+        if FORCES_PART in plans:
+            yield diagrams_view.FORCES_FIGURE
         if ROOTS_PART in plans and layout.roots is not None:
-            drawn += [diagrams_view.LIFT_OFF_FIGURE, *[diagrams_view.EXTREMES_FIGURE] * layout.roots.waves]
-        drawn += [diagrams_view.CIRCLE_FIGURE] * (CIRCLE_PART in plans)
-        drawn += [scheme_view.BEAMS_FIGURE] * (BEAMS_PART in plans and bool(layout.bent))
-        yield Figure("results", text.results_table, about=drawn[-1].name if drawn else None)
-        yield from drawn
+            yield diagrams_view.LIFT_OFF_FIGURE
+            if layout.roots.waves:
+                yield diagrams_view.EXTREMES_FIGURE
+        if CIRCLE_PART in plans:
+            yield diagrams_view.CIRCLE_FIGURE
+        if BEAMS_PART in plans and layout.bent:
+            yield scheme_view.BEAMS_FIGURE
         if FORCES_PART in plans:
             yield Figure("strength", text.strength_block)
             yield Figure("checks", text.checks_table)

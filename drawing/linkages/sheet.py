@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations, product
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION
@@ -17,27 +16,14 @@ from ...plans.linkages.cycle import slider_runs
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
 from ...plans.names import role, scale_factor
-from ...plans.quantities import plans_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Fixed, Scale, Segment, steps
-from ..compose import (
-    GROUP,
-    PART,
-    TEXT,
-    Drawn,
-    Pages,
-    Standing,
-    arrange,
-    begins_of,
-    compose,
-    in_any_order,
-    on_a_page,
-    on_one_page,
-)
+from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, in_any_order, last, on_one_page
 from ..extents import Rungs
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
+from ..packing import Placement
 from ..page import DATA, STATEMENT
 from ..tables import paged, text_block
 from ..view import View, numbered
@@ -59,7 +45,7 @@ LinkageFigure = Figure[Scene]
 # views with which the part of the forces, and then one of its groups, begins
 OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 
-Found = tuple[list[View], Rungs, list[list[Standing]]]
+Found = tuple[list[View], Rungs, list[Placement]]
 GROUPS_APART = 2  # from so many groups on each plan has equations and tables of its own
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 MOST = 2  # texts and tables that may stand beside the statement of a task
@@ -90,11 +76,8 @@ def _figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
     if not single:
         yield from _results(solved, own)
     if "compound" in plans:
-        compound = [*_compound(solved, width)]
-        yield from compound
-        yield from _results(
-            solved, ("compound",), {figure.ladders[0]: figure.name for figure in compound if figure.ladders}
-        )
+        yield from _compound(solved, width)
+        yield from _results(solved, ("compound",))
     if contents.cycle is not None:
         # a sheet of one position does not pay for the import
         from .figures.cycle import coupler, diagrams_view, field_view, main_output, positions_view
@@ -138,15 +121,9 @@ def _text(
     return Figure(name, draw)
 
 
-def _results(
-    solved: SolvedLinkage, kinds: Sequence[str], views: Mapping[str, str] = MappingProxyType({})
-) -> Iterator[LinkageFigure]:
-    """Go through tables, each about the last plan that it was measured on; `views` call it so by its scale factor."""
-    plans, order = plans_of(solved.program), solved.program.plans
-    for part in (part for part in results_parts(solved) if part.kind in kinds):
-        measured = max((plans[name] for name in part.names if name in plans), key=order.index, default="")
-        about = views.get(solved.scale_of_plan.get(measured, ""), measured)
-        yield Figure(part.name, partial(results_table, part=part), about=about)
+def _results(solved: SolvedLinkage, kinds: Sequence[str]) -> Iterator[LinkageFigure]:
+    parts = (part for part in results_parts(solved) if part.kind in kinds)
+    return (Figure(part.name, partial(results_table, part=part)) for part in parts)
 
 
 def _plan(solved: SolvedLinkage, plan: str) -> LinkageFigure:
@@ -256,24 +233,23 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     if sheet is not None and whole is not None and (blank := _as_blank(contents, whole)) is not None:
         if sheet != whole:
             return _composed(*blank, sheet)
-        if (same := _on_pages(fitting, whole, blank[1][1])) is not None:
+        if (same := _on_pages(fitting, whole, blank[1][1], count=1)) is not None:
             return _composed(fitting, same, sheet)
     for way, rungs, pages in ways_of(fitting.extents, whole):
-        if fewest is not None and len(fewest[1][2]) <= pages:
+        if fewest is not None and last(fewest[1][2]) < pages:
             break
         try:
-            fewer = len(fewest[1][2]) - 1 if fewest is not None else 0
-            found = (_on_a_page if pages == 1 else partial(_on_pages, most=fewer))(fitting, way, rungs)
+            found = (_on_a_page if pages == 1 else partial(_on_pages, count=pages))(fitting, way, rungs)
         except InputError:
             if sheet is not None or way.name == SIZES[-1]:
                 raise
             continue  # a larger format may hold it
-        if found is not None:
+        if found is not None and (fewest is None or last(found[2]) < last(fewest[1][2])):
             fewest = way, found
     if fewest is None:
         raise InputError("sheet-too-small", format=way.name)
-    way, (views, rungs, placed) = fewest
-    if whole is not None and len(placed) > 1:
+    way, (views, rungs, places) = fewest
+    if whole is not None and last(places) > 0:
         found, drawn = _enlarged(fitting, whole, fewest[1])
         if sheet == whole:
             return drawn
@@ -283,32 +259,32 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
         stated = _stated(fitting, sheet, rungs)
         if stated is None:
             raise InputError("sheet-too-small", format=sheet.name)
-        way, (views, rungs, placed) = sheet, stated
-    return _composed(fitting, (views, rungs, placed), way, smaller=sheet is None)
+        way, (views, rungs, places) = sheet, stated
+    return _composed(fitting, (views, rungs, places), way, smaller=sheet is None)
 
 
 def _composed(fitting: _Fitting, found: Found, sheet: Format, smaller: bool = False) -> Drawn:
-    contents, (views, rungs, pages) = fitting.contents, found
-    paper = sheet, contents.norm, contents.words["heading.continued"]
-    return compose(views, pages, fitting.scales(rungs), *paper, smaller=smaller, begins=_begins)
+    contents, (views, rungs, places) = fitting.contents, found
+    goes_on = contents.words["heading.continued"]
+    return compose(views, places, fitting.scales(rungs), sheet, contents.norm, goes_on, smaller=smaller)
 
 
 def _enlarged(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
     """Draw several pages; where some are too empty plans are larger, as long as that helps and takes no page more."""
-    drawn, ladders, best = _composed(fitting, found, sheet), fitting.extents.ladders, found
-    short, norm, goes_on = drawn.short, fitting.contents.norm, fitting.contents.words["heading.continued"]
+    drawn = _composed(fitting, found, sheet)
+    ladders = fitting.extents.ladders
     for symbol in (symbol for symbol, ladder in ladders.items() if ladder.free and not ladder.chosen):
-        while short and best[1][symbol] > 0:
-            rungs = best[1] | {symbol: best[1][symbol] - 1}
+        while drawn.short and found[1][symbol] > 0:
+            rungs = found[1] | {symbol: found[1][symbol] - 1}
             with suppress(InputError):
-                other = _on_pages(fitting, sheet, rungs, most=len(found[2]))
-                if other is not None and other[1] == rungs:
-                    now = Pages(other[0], sheet, norm, goes_on, _begins).even(other[2], short)[1]
-                    if now < short:
-                        best, short = other, now
+                other = _on_pages(fitting, sheet, rungs, last(found[2]) + 1)
+                if other is not None and other[1] == rungs and last(other[2]) <= last(found[2]):
+                    again = _composed(fitting, other, sheet)
+                    if (len(again.sheets), again.short) < (len(drawn.sheets), drawn.short):
+                        found, drawn = other, again
                         continue
             break
-    return (found, drawn) if best is found else (best, _composed(fitting, best, sheet))
+    return found, drawn
 
 
 def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | None:
@@ -327,7 +303,7 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | Non
         rungs = wanted | {symbol: min(wanted[symbol] + coarser, top) for symbol, top in tops.items()}
         with suppress(InputError):
             found = _stated(fitting, printable(sheet), rungs)
-            if found is not None and len(found[2]) <= LEAF and found[1] == rungs:
+            if found is not None and last(found[2]) < LEAF and found[1] == rungs:
                 return fitting, found
     return None
 
@@ -337,7 +313,7 @@ def _on_a_page(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     views, taken = fitting.fitted(sheet, rungs)
     page = [view.size for view in views], sheet, fitting.contents.norm, begins_of(views)
     places = on_one_page(*page) or in_any_order(*page)
-    return None if places is None else (views, taken, [[*zip(views, places, strict=True)]])
+    return None if places is None else (views, taken, places)
 
 
 def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
@@ -348,25 +324,21 @@ def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     work, taken = fitting.fitted(sheet, rungs)
     every = [[*views, *work] for views in fitting.statements(sheet, taken)]
     begins, norm = begins_of(every[0]), fitting.contents.norm
+    ways = [Pages([view.size for view in views], sheet, norm, begins) for views in every]
     order = [*range(len(begins))]
-
-    def page(views: Sequence[View], some: Sequence[int], first: bool, place: Any = on_a_page) -> list[Standing]:
-        own = [views[i] for i in some]
-        placed = place([view.size for view in own], sheet, norm, [begins[i] for i in some], first)
-        return [] if placed is None else [*zip(own, placed, strict=True)]
-
-    if only := page(every[0], order, True, on_one_page):
-        return every[0], taken, [only]
+    if (places := on_one_page(ways[0].sizes, sheet, norm, begins)) is not None:
+        return every[0], taken, places
     texts = [i for i in order[len(STATEMENT) :] if begins[i] == TEXT]
     beside = (some for count in range(MOST + 1) for some in combinations(texts, count))
-    for some, views in product(beside, every):
+    for some, (views, pages) in product(beside, zip(every, ways, strict=True)):
         first = [i for i in order if i < len(STATEMENT) or i in some]
         rest = [i for i in order if i not in first]
-        if (own := page(views, first, True)) and (others := page(views, rest, False)):
-            return views, taken, [own, others]
-    found = next((views for views in every if page(views, order[: len(STATEMENT)], True)), every[-1])
-    pages = arrange(found, sheet, norm, fitting.contents.words["heading.continued"])
-    return None if pages is None else (found, taken, pages)
+        if (own := pages.tried(first, 0)) is not None and (others := pages.tried(rest, 1)) is not None:
+            placed = dict(zip((*first, *rest), (*own, *others), strict=True))
+            return views, taken, [placed[i] for i in order]
+    found = next((views for views, pages in zip(every, ways, strict=True) if pages.tried(order[:3], 0)), every[-1])
+    places = arrange([view.size for view in found], sheet, norm, begins)
+    return None if places is None else (found, taken, places)
 
 
 def _begins(views: Sequence[View]) -> list[int]:
@@ -378,18 +350,16 @@ def _begins(views: Sequence[View]) -> list[int]:
     return found
 
 
-def _on_pages(fitting: _Fitting, sheet: Format, rungs: Rungs, most: int = 0) -> Found | None:
-    """Place the views on few pages, or on so many at `most`.
-
-    Forces begin on one of their own where that leaves none half empty.
+def _on_pages(fitting: _Fitting, sheet: Format, rungs: Rungs, count: int) -> Found | None:
+    """Place the views on `count` pages, or on more: forces begin on one of their own where that leaves none half empty.
 
     They come in reading order, the larger ones smaller if the first page cannot hold them; where a fixed plan is too
     large for it, the first view that it can hold begins.
     """
-    norm, goes_on = fitting.contents.norm, fitting.contents.words["heading.continued"]
+    norm = fitting.contents.norm
 
-    def placed(views: Sequence[View]) -> list[list[Standing]] | None:
-        return arrange(views, sheet, norm, goes_on, _begins, most)
+    def placed(views: Sequence[View]) -> list[Placement] | None:
+        return arrange([view.size for view in views], sheet, norm, _begins(views), count)
 
     for first in (False, True):
         try:
@@ -400,14 +370,14 @@ def _on_pages(fitting: _Fitting, sheet: Format, rungs: Rungs, most: int = 0) -> 
             break
         if first and any(taken[s] > rung and fitting.extents.ladders[s].fixed for s, rung in rungs.items()):
             break
-        if (pages := placed(views)) is not None:
-            return views, taken, pages
+        if (places := placed(views)) is not None:
+            return views, taken, places
     views, taken = fitting.fitted(sheet, rungs)
     wide, high = room(sheet, norm, first=True)
     begin = next((view for view in views if view.size[0] <= wide and view.size[1] <= high), None)
     views = [begin, *(view for view in views if view is not begin)] if begin is not None else []
-    pages = placed(views) if views else None
-    return None if pages is None else (views, taken, pages)
+    places = placed(views) if views else None
+    return None if places is None else (views, taken, places)
 
 
 class _Fitting:
@@ -490,8 +460,7 @@ class _Fitting:
             symbol = next(iter(figure.ladders), "")
             if len(figure.ladders) > 1:
                 symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s])
-            view = scene.once(figure.draw, "figure", figure.name)
-            built.append((replace(view, about=figure.about), self.extents.root(symbol)))
+            built.append((scene.once(figure.draw, "figure", figure.name), self.extents.root(symbol)))
         return built
 
     def statements(self, sheet: Format, rungs: Rungs) -> Iterator[list[View]]:

@@ -29,6 +29,7 @@ def pressed(page: Any, times: int = 1) -> None:
     for _ in range(times):
         with page.expect_navigation():
             page.keyboard.press("Enter")
+        page.wait_for_load_state("networkidle")  # what is asked next is all there
 
 
 def answered(page: Any, stack: Stack, seen: set[str]) -> int:
@@ -62,7 +63,9 @@ def answered(page: Any, stack: Stack, seen: set[str]) -> int:
 def nearest(page: Any, stack: Stack) -> str:
     """Return the address of the point that is nearest to where the vector that is asked about was drawn to end."""
     symbol = page.locator("h1").inner_text().rstrip("?").split()[-1]  # of a^n_BA the letters stand in another order
-    (truth,) = (own for student, own in stack.truth.items() if student in page.locator(".about").first.inner_text())
+    about, students = page.locator(".about").first.inner_text(), [*stack.truth]
+    called = {student: student for student in students} | {name: students[n] for name, n in stack.whose.items()}
+    (truth,) = (stack.truth[student] for name, student in called.items() if name in about)
     (tip,) = (one.tip for name, one in truth.items() if sorted(name.replace("_", "")) == sorted(symbol))
 
     def off(address: str) -> float:
@@ -123,6 +126,7 @@ def test_an_end_is_moved_by_a_click_on_the_picture(page: Any, stack: Stack) -> N
     page.locator("form[enctype] button.main").click(timeout=MINUTES)
     page.locator("a[href*='/asked/']").click(timeout=MINUTES)
     page.locator("a.main").click()
+    page.wait_for_load_state("networkidle")  # the script that takes clicks has come
     before = page.locator("[name='tip']").input_value()
     box = page.locator("#plan").bounding_box()
     with page.expect_navigation():
