@@ -22,6 +22,7 @@ HELD, BESIDE = 9, 1  # bonds of the corners to the views beside them, of a text 
 SOON = 5  # views from which one may stand on a page before its turn
 TRIES, NEARLY = 60, 1.2  # orders that are tried for the only page; how much more height than it has all may need
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
+HALF = 0.5  # part of a page in reading order that larger letters fill
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
 TABLE, LEAD = range(2)  # kinds of texts that may have larger letters, beside what tells of the work
@@ -199,16 +200,20 @@ def arrange(
     packed = strict.packed()
     if packed is None or not max(last(packed), count - 1) > 0:
         return packed
-    end, ways = (count - 1 if count else last(packed)), [packed]
+    end, ways, read = (count - 1 if count else last(packed)), [packed], [packed]
 
     def worth(places: list[Placement]) -> tuple[bool, int, float]:
-        return last(places) == end, -last(places), min(FULL, strict.least(places))
+        least = strict.least(places)
+        # larger letters fill pages in reading order that are but half full
+        ordered = any(places is way for way in read) and least >= HALF
+        return last(places) == end, -last(places), FULL if ordered else min(FULL, least)
 
     for pages in (strict, loose):
         if 0 < end < MANY and (runs := pages.runs(0, 0, end)) is not None:
             ways.insert(0 if pages is strict else len(ways), runs)
+            read += [runs] if pages is strict else []
         best = max(ways, key=worth)
-        if not begins or (last(best) == end and strict.least(best) >= FULL):
+        if not begins or (last(best) == end and worth(best)[2] >= FULL):
             break
         if pages is strict and (more := loose.packed()) is not None:
             ways.append(more)
