@@ -203,21 +203,22 @@ def arrange(
     end, ways, read = (count - 1 if count else last(packed)), [packed], [packed]
 
     def worth(places: list[Placement]) -> tuple[bool, int, float]:
-        least = strict.least(places)
-        # larger letters fill pages in reading order that are but half full
-        ordered = any(places is way for way in read) and least >= HALF
-        return last(places) == end, -last(places), FULL if ordered else min(FULL, least)
+        return last(places) == end, -last(places), min(FULL, strict.least(places))
 
     for pages in (strict, loose):
         if 0 < end < MANY and (runs := pages.runs(0, 0, end)) is not None:
             ways.insert(0 if pages is strict else len(ways), runs)
             read += [runs] if pages is strict else []
         best = max(ways, key=worth)
-        if not begins or (last(best) == end and worth(best)[2] >= FULL):
+        if not begins or (last(best) == end and strict.least(best) >= FULL):
             break
         if pages is strict and (more := loose.packed()) is not None:
             ways.append(more)
-    return max(ways, key=worth)
+    best = max(ways, key=worth)
+    alone = sum(place.page == last(best) for place in best) == 1  # what may have room on the page before
+    # larger letters fill pages in reading order that are but half full
+    read = [way for way in read if last(way) == last(best) and strict.least(way) >= HALF and not alone]
+    return best if best in read else max(read, key=strict.least, default=best)
 
 
 @dataclass(slots=True)
