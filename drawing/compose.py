@@ -31,7 +31,6 @@ ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page belo
 ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
 GROWN = 2.0  # times as large as before are texts with larger letters
 CROWDED = 0.85  # part of a page that views, with what is between them, never fill
-HIGH = 0.0, 6.5, 8.0  # mm of the rows of its tables at least
 LARGE = {TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TABLE, TOLD}, {TOLD}, {TABLE, LEAD}, {TABLE}, {LEAD}, set[int]()
 KEPT = 8  # parts of the views of a page that are tried in reading order
 BARE = 0.105  # part of a page that may be one bare rectangle
@@ -40,6 +39,7 @@ INK = {FIGURE: 1.0, TEXT: 0.5, TOLD: 0.5}  # mm between the lines of a view and 
 OVER = 0.44  # heights of a heading between its letters and the box of its view
 # heights of rows, mm, and the part of the width of a page that tables take, as wide as the widest of them or more
 ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
+HIGH = 0.0, *(row for row, part in ROWS if not part)  # of these in reading order, tables as wide as they are
 NARROWEST = 0.38  # part of the width of a page that texts beside a figure have at least
 PARTS, NUDGES = (0.25, 0.5, 0.75), 2  # of its free way that a view is moved, and how often each at most
 FAR = 2  # pages that a table may move
