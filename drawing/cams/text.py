@@ -27,7 +27,13 @@ from .scene import MU_DIGITS, CamScene, is_aside
 Lines = list[tuple[str, ...]]
 # the views in the order of the work, in which a note tells them
 WORK: tuple[str, ...] = (
-    *("givens", "choices", "diagrams", "equations_scales", "sizes", "rocker_sizes", "equations_roller"),
+    "givens",
+    "choices",
+    "diagrams",
+    "equations_scales",
+    "sizes",
+    "rocker_sizes",
+    "equations_roller",
 )
 WORK += ("equations_rocker", "pressure", "profile", "rocker_profile", "plate_sizes", "equations_plate", "plate_profile")
 TIMES = {"m": 1e3, "rad": DEGREES}  # by SI unit, of lengths and angles as they are printed
