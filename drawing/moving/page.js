@@ -71,7 +71,7 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   side: { z: 1, make: (g, s) => make("line", { class: s.main ? "main" : "thin" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
   line: { z: 0, make: g => make("line", { class: "thin" }, g), draw: (s, n, p, v) => {
     const a = p(s.a), b = p(s.b), u = v(s.u), along = dot(sub(b, a), u), e = along < 0 ? -8 : 8;
-    line(n, Math.abs(along) < 1 ? add(b, u, -10) : a, add(b, u, Math.abs(along) < 1 ? 10 : e)); return [];
+    const ends = [Math.abs(along) < 1 ? add(b, u, -10) : a, add(b, u, Math.abs(along) < 1 ? 10 : e)]; line(n, ...ends); return [[...ends, THIN]];
   } },
   vector: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
     draw: (s, n, p) => { const a = p(s.a), b = p(s.b); line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = named(n.letter, a, b); return [[a, b]]; } },
@@ -81,10 +81,10 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   arm: { z: 0, make: g => make("g", {}, g), draw: (s, n, p, v) => {
     if (!n.firstChild) { make("line", { class: "thin" }, n); make("line", { class: "thin" }, n); }
     const at = p(s.at), pole = p(s.pole), e = unit(v(s.v)), foot = add(at, e, dot(sub(pole, at), e));
-    line(n.firstChild, pole, foot); line(n.lastChild, at, foot); return [];
+    line(n.firstChild, pole, foot); line(n.lastChild, at, foot); return [[pole, foot, THIN], [at, foot, THIN]];
   } },
   guide: { z: 0, make: g => make("path", { class: "thin" }, g), draw: (s, n, p, v) => {
-    if (s.mu === here.mu && s.drawn === here.samples) return [];
+    if (s.mu === here.mu && s.drawn === here.samples) return s.sides;
     s.mu = here.mu; s.drawn = here.samples;
     const u = unit(v(s.u)), at = p(s.at), way = here.samples.filter(f => f[0] < FAILED).map(f => dot(sub(spot(f, s.at).map(x => x / here.mu), at), u));
     const low = Math.min(...way) - 9, high = Math.max(...way) + 9, down = u[0] > 1e-9 || (Math.abs(u[0]) <= 1e-9 && u[1] < 0) ? -1 : 1, w = [-u[1] * down, u[0] * down];
@@ -92,7 +92,7 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
     const a = add(base, u, low), b = add(base, u, high);
     d += `M${round([a])}L${round([b])}`;
     for (let x = low + 1; x < high; x += 3) { const c = add(base, u, x); d += `M${round([c])}L${round([add(add(c, w, 2), u, -2)])}`; }
-    n.setAttribute("d", d); return [];
+    n.setAttribute("d", d); return s.sides = [[a, b], [add(a, w, 2), add(b, w, 2)]];
   } },
   corner: { z: 3, make: g => make("polygon", { class: "solid" }, g), draw: (s, n, p) => {
     const at = p(s.at), [a, b] = s.ends.map(end => unit(sub(p(end), at)));
@@ -100,7 +100,8 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   } },
   block: { z: 3, make: g => make("polygon", { class: "paper" }, g), draw: (s, n, p, v) => {
     const at = p(s.at), u = unit(v(s.u)), w = [-u[1], u[0]];
-    n.setAttribute("points", round([[5, 3], [5, -3], [-5, -3], [-5, 3]].map(([x, y]) => add(add(at, u, x), w, y)))); return [];
+    const corners = [[5, 3], [5, -3], [-5, -3], [-5, 3]].map(([x, y]) => add(add(at, u, x), w, y));
+    n.setAttribute("points", round(corners)); return corners.map((end, k) => [end, corners[(k + 1) % 4], CUTS]);
   } },
   body: { z: 0, make: (g, s, high, view) => { // an outline that turns as a whole, so often about its centre
       let d = "";
@@ -156,6 +157,7 @@ function build(view, svg) {
       node.addEventListener("pointerleave", () => light([]));
     }
   }
+  view.points_first = ["letter", "pole", "mark", "number", "force", "vector"].flatMap(kind => view.shapes.filter(shape => shape.k === kind));
   view.svg = svg;
   if (view.name === "position" && drive.crank) grip(view, svg);
 }
@@ -179,33 +181,33 @@ function light(names) {
 const shownViews = () => [...new Set([views.get("position"), views.get($("which").value)])].filter(view => view && view.svg);
 
 // ---- letters beside what they name, away from lines and from one another
-const COVERS = 6, AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
+const COVERS = 6, CUTS = 1.5, THIN = 0.5, AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
 function settle(view, segments) {
   const taken = [];
   if (view.grip) { const [x, y] = spot(here.found, drive.crank[1]).map(z => z / view.mu); taken.push([x - 5, y - 5, x + 5, y + 5]); }
-  for (const shape of view.shapes) {
+  for (const shape of view.points_first) {
     const label = shape.label;
     if (!label || shape.hidden) continue;
     const wide = label.text.wide, high = view.letter * 1.1, tries = [];
     if (label.b) {
       const e = unit(sub(label.b, label.a)), n = [-e[1], e[0]], off = (label.off || 1.4) + Math.abs(n[0]) * wide / 2 + Math.abs(n[1]) * high / 2;
-      for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) for (const more of [0, high]) tries.push(add(add(label.a, sub(label.b, label.a), part), n, way * (off + more)));
-    } else for (const far of [2.4, 4.2, 6.4, 9]) for (const e of AROUND) tries.push(add(label.a, [e[0] * (far + wide / 2), e[1] * (far + high / 2)]));
+      for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) for (const more of [0, high]) { const foot = add(label.a, sub(label.b, label.a), part); tries.push([add(foot, n, way * (off + more)), foot]); }
+    } else for (const far of [2.4, 4.2, 6.4, 9]) for (const e of AROUND) tries.push([add(label.a, [e[0] * (far + wide / 2), e[1] * (far + high / 2)]), label.a]);
     let best = null;
     const attempt = k => {
-      const at = tries[k], box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
+      const [at, foot] = tries[k], near = add(foot, sub(at, foot), 0.2), box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
       let cost = k * 0.02;
       for (const other of taken) if (box[1] < other[3] && other[1] < box[3]) { // two in a row must not read as one word
         const gap = Math.max(box[0] - other[2], other[0] - box[2]);
         cost += gap < 0 ? COVERS : gap < 0.5 * view.letter ? 1 : 0;
       }
-      for (const [a, b] of segments) if (crosses(a, b, box)) cost += 1.5;
+      for (const [a, b, by] of segments) cost += crosses(a, b, box) ? by || CUTS : !by && meet(a, b, near, at) ? label.b ? 2 * CUTS : CUTS : 0; // beyond a line it is read as that line's
       if (!best || cost < best.cost) best = { cost, at, box, k };
     };
     if (shape.tried < tries.length) attempt(shape.tried); // where it was it stays as long as it is clear there
-    if (!best || best.cost >= 1.5) for (let k = 0; k < tries.length && !(best && best.cost < k * 0.02); k++) attempt(k);
+    if (!best || best.cost >= THIN) for (let k = 0; k < tries.length && !(best && best.cost < k * 0.02); k++) attempt(k);
     shape.tried = best.k;
-    const crowded = best.cost > COVERS && !label.text.classList.contains("lit"); // it is read when it is pointed at
+    const crowded = best.cost >= 2 * CUTS && !label.text.classList.contains("lit"); // it is read when it is pointed at
     label.text.classList.toggle("crowded", crowded);
     if (crowded) continue;
     taken.push(best.box);
