@@ -314,10 +314,14 @@ def _on_paper(case: Case) -> tuple[Solved, str, Mapping[str, Scale], tuple[Input
         return solved, "", {}, case.warnings
     if case.format is None:
         sheet, scales = case.kind.first_scales(solved, case.choosers, case.plans)
-        return solved, sheet.name, {plan: scales[plan] for plan in solved.scale_of_plan}, case.warnings
+        return solved, sheet.name, _used(solved, scales), case.warnings
     from .sheets import drawing_of  # draws the whole sheet, which takes a second or two
 
     drawn = drawing_of(case)
     solved, said = case.kind.fitted(solved, drawn)
-    # some views are drawn larger
-    return solved, drawn.format, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
+    return solved, drawn.format, _used(solved, drawn.scales), (*case.warnings, *said)
+
+
+def _used(solved: Solved, scales: Mapping[str, Scale]) -> dict[str, Scale]:
+    """Return the scale factors of the plans, and of the figures drawn larger that show a quantity."""
+    return {plan: scales[plan] for plan in (*solved.scale_of_plan, *solved.shown_on.values()) if plan in scales}

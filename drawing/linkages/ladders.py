@@ -10,7 +10,7 @@ from dataclasses import replace
 from ...plans.board import POSITION
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import FRAME, Driver, Prismatic, Revolute
-from ...plans.linkages.solved import SolvedLinkage
+from ...plans.linkages.solved import DRIVER, SolvedLinkage
 from ...plans.linkages.structure import TRIAD, Group
 from ...plans.names import FORCES, LEVER, is_shown, role, scale_factor
 from ...scales.choices import SIZES
@@ -19,7 +19,6 @@ from ...scales.scale import UNITS, Choosers, CrankScale, Fixed, From, Round, Sca
 from ..extents import Extent, Extents, Ladder, Rungs, Size, visible, ways
 from ..formats import FORMATS, Format
 
-DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
 # mm, how long the longest segment of a plan of forces is at least and at most, on one page and on several, by format
 SEGMENTS = {

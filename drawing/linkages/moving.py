@@ -90,7 +90,7 @@ class _Live(Teller):
 
     def read_off(self, item: Quantity) -> dict[str, str]:
         """Return what a segment of a plan says, by its millimetres."""
-        words, plan = self.words, self.solved.shown_on.get(item.name, "")
+        words, plan = self.words, self.figure_of(item.name)
         unit = words.unit(words.display.unit(item.unit))
         paper = words.unit(words.display.paper)
         return {
@@ -211,7 +211,7 @@ def _quantities(scene: Scene) -> Iterator[Data]:
     for item in scene.quantities.values():
         if item.kind == "point" or item.name not in scene.made or role(item.name).hidden:
             continue
-        plan = scene.solved.shown_on.get(item.name, "")
+        plan = scene.figure_of(item.name)
         yield {
             "name": item.name,
             "symbol": html(scene.words.symbol(item.name)),

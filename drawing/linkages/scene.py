@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ...plans.board import POSITION, Program, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.legs import guide_letters
-from ...plans.linkages.mechanism import FRAME, Driver, Mechanism, Prismatic, Revolute
-from ...plans.linkages.solved import SolvedLinkage
+from ...plans.linkages.mechanism import FRAME, Mechanism, Prismatic, Revolute
+from ...plans.linkages.solved import DRIVER, SolvedLinkage
 from ...plans.linkages.structure import Structure
-from ...plans.names import FORCES, inertia, rate, role
+from ...plans.names import FORCES, role
 from ...plans.quantities import Quantity, unit_of
 from ...scales.scale import Scale
 from ..figure import ANSWERS, SubjectScene
@@ -20,7 +20,6 @@ from ..printed import segment_text
 from ..shapes import Group, Pen, Vector
 from ..view import Canvas
 from ..words import Words
-from .ladders import DRIVER
 from .reading import Edge, Reading, ends_of, read
 
 if TYPE_CHECKING:
@@ -200,8 +199,7 @@ class Scene(SubjectScene[SolvedLinkage]):
     def figure_of(self, name: str) -> str:
         """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""
         plan = self.solved.shown_on.get(name, "")
-        own = plan == POSITION and DRIVER in self.scales and name in _arms_of_driver(self.solved)
-        return DRIVER if own else plan
+        return POSITION if plan == DRIVER and DRIVER not in self.scales else plan
 
     def letter(self, vector: str, known: int = 0) -> str:
         """Return the letter of a vector, with its bar; underlined twice if it is known in full, once by direction."""
@@ -224,19 +222,6 @@ def plan_heading(words: Words, structure: Structure, plan: str) -> str:
     key = "group_forces" if len(links) > 1 else "link_forces"
     text: str = words[f"heading.{key if role(plan).kind == FORCES else plan}"]
     return text.format(links=", ".join(map(str, links)), link=number)
-
-
-def _arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
-    """Return the arms about the driver's pivot of the forces on the driver, which its own figure shows."""
-    driver = solved.mechanism.driver
-    if not isinstance(driver, Driver):
-        return frozenset()
-    mechanism, number = solved.mechanism, driver.link
-    forces = {inertia("F", number), rate("G", number), *(load.name for load in mechanism.loads_on(number))}
-    forces |= {mechanism.pair("R", link.number, number) for link in mechanism.links}
-    moments = solved.program.which(("moment",))
-    taken = {s.name for s in moments if s.operands[0] in forces and s.operands[2] == driver.pivot}
-    return frozenset(s.name for s in solved.program.which(("arm",)) if s.operands[0] in taken)
 
 
 def line_of(scene: Scene, direction: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -13,20 +13,21 @@ from ...scales.kept import Kept
 from ..board import POSITION, Program
 from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
-from ..names import Name, role, scale_factor, spelled, vector
+from ..names import Name, inertia, rate, role, scale_factor, spelled, vector
 from ..quantities import extent, plans_of, point_of, quantities
 from ..solved import Solved, found_on
 from . import compound
 from .chain import USUAL, constructed, hinged
 from .legs import guide_letters
 from .loads import BEGIN, END, with_sizes
-from .mechanism import FRAME, ZERO, Mechanism, Prismatic, SlidingDriver, start_names
+from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, SlidingDriver, start_names
 from .structure import TRIAD, Structure, listed
 
 if TYPE_CHECKING:
     from ..condition import Condition
 
 _STROKES = Kept[Any](64)  # from where to where outputs move
+DRIVER = "driver"  # the figure of the driver apart, which shows arms at a scale factor of its own
 TWICE = 2.0  # how much better another centre of moments must be: it costs moments that else nobody needs
 
 
@@ -112,6 +113,18 @@ def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     return {plan: symbol for plan, symbol in symbols.items() if plan in drawn}
 
 
+def _arms_of_driver(mechanism: Mechanism, program: Program) -> Iterator[str]:
+    """Go through the arms about the driver's pivot of the forces on the driver, which its own figure shows."""
+    driver = mechanism.driver
+    if isinstance(driver, Driver):
+        number = driver.link
+        forces = {inertia("F", number), rate("G", number), *(load.name for load in mechanism.loads_on(number))}
+        forces |= {mechanism.pair("R", link.number, number) for link in mechanism.links}
+        moments = (step for step in program.which(("moment",)) if step.operands[2] == driver.pivot)
+        taken = {step.name for step in moments if step.operands[0] in forces}
+        yield from (step.name for step in program.which(("arm",)) if step.operands[0] in taken)
+
+
 def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
     """Return the symbols of all scale factors that a task or a user may choose."""
     forces = (scale_factor("F", part, links) for part, links in structure.parts.items())
@@ -175,10 +188,12 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     for name, point in _moment_points(mechanism, structure).items():
         if name in items:
             items[name] = replace(items[name], about=point)
+    found = found_on(board, program, {})
+    found["shown_on"] |= dict.fromkeys(_arms_of_driver(mechanism, program), DRIVER)
     return SolvedLinkage(
         mechanism=mechanism,
         structure=structure,
-        **{**found_on(board, program, {}), "scale_of_plan": _scale_of_plan(structure, program)},
+        **{**found, "scale_of_plan": _scale_of_plan(structure, program)},
         quantities=items,
         givens=givens,
     )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import copy
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
 
+from kulman import solve
 from kulman.tests.support.cases import some
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import (
@@ -21,9 +23,12 @@ from kulman.tests.support.linkage_points import (
     l12_lever,
     linkage_faults,
 )
+from kulman.tests.support.printed_numbers import half_digit, table, value
 from kulman.tests.support.readback import Sheet, Stroke, View
 from kulman.variants.shelf import bundled, summary
 
+INSET = 5.0  # mm, or cm
+MEASURED = "results_(velocity|acceleration|forces)"
 CASE = Linkage("scheme-17-sewing-machine", "0", format="A1")
 Plant = Callable[[Sheet], None]
 
@@ -122,6 +127,22 @@ SAMPLE = [Linkage(task, variants[k % len(variants)], format="A1") for k, (task, 
 @pytest.mark.parametrize("case", some(SAMPLE[::12], 1), ids=str)
 def test_sheet_of_a_scheme_is_without_fault(case: Linkage) -> None:
     assert linkage_faults(case) == []
+
+
+@pytest.mark.parametrize("case", some((Linkage("nau-slider-crank", "3", format="A1"), *SAMPLE), 0, 5), ids=str)
+def test_solve_tells_the_millimetres_that_the_sheet_prints(case: Linkage) -> None:
+    found = solve(case.task, case.variant, format="A1", lang="uk")
+    told: dict[str, list[float]] = {}  # by symbol: a load's arms about a link's point and on the lever have one
+    for name, quantity in found.items():
+        told.setdefault(found.words.symbol(name), []).append(quantity.shown(found.words.display).mm or 0.0)
+
+    tables = (table(case.sheet[name]) for name in case.sheet.names if re.match(MEASURED, name))
+    printed = {row[0]: row[1] for rows in tables for row in rows if row[0] in told and row[1] != "–"}
+
+    assert "h_{21}" in printed or case.task != "nau-slider-crank"
+    shown = {symbol: mm for symbol, mm in printed.items() if min(told[symbol]) >= INSET}  # others are read in details
+    faults = {symbol: min(abs(value(mm) - of) for of in told[symbol]) / half_digit(mm) for symbol, mm in shown.items()}
+    assert {symbol: told[symbol] for symbol, by in faults.items() if by > 1.001} == {}
 
 
 @pytest.mark.soak

@@ -20,7 +20,7 @@ from ..case import Request, Settings, plans_wanted
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, variant_of_id
 from .cells import Asked
-from .keyed import PLANS, Keyed, Rubric, keyed
+from .keyed import PLANS, Keyed, Rubric, is_arm_of_lever, keyed
 from .reading import Answers, Reply, apart
 from .seen import Seen, measured, seen
 
@@ -391,8 +391,8 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
             symbol, own = key.scale_of(line.name, answers.scales), line.factor
             written = own or answers.scales.get(symbol)
             mu = None if written is None else fits.get(symbol, written.value) if own is None else own.value
-            elsewhere = own is None and _on_other_drawing(line, symbol, answers, key)
             times = _times(line, symbol, answers, key)
+            elsewhere = own is None and times == 1.0 and _on_other_drawing(line, symbol, answers, key)
             mm = None if elsewhere or line.mm is None else line.mm / times
             given.append(replace(line, mm=mm, mu=mu if own is None or mu is None else mu * times))
         else:
@@ -401,12 +401,16 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
 
 
 def _times(line: Reply, symbol: str, answers: Answers, key: Keyed) -> float:
-    """Return how many times as large as on its plan a segment was measured: in a detail, where it fits better."""
-    shown, scale = key.solution.quantities[line.name], key.solution.scales.get(symbol)
-    mm = line.mm
-    if not mm or scale is None or not shown.mm or shown.mm >= INSET:
+    """Return how many times as large as on its plan a segment was measured: where it fits better.
+
+    In a detail, or on the figure of the driver, as the sheet shows it.
+    """
+    shown, scale, mm = key.solution.quantities[line.name], key.solution.scales.get(symbol), line.mm
+    if not mm or scale is None or shown.scale is None or not shown.mm or is_arm_of_lever(line.name):
         return 1.0
-    times, own = key.magnified.get(line.name, 1.0), answers.scales.get(symbol)
+    times, own = scale.mu / key.solution.scales[shown.scale].mu, answers.scales.get(symbol)
+    if times == 1.0 and shown.mm < INSET:
+        times = key.magnified.get(line.name, 1.0)
     mu = own.nearest(scale.mu) if own else scale.mu
     if line.factor is not None:  # beside the segment, that of the detail itself
         factor = line.factor.nearest(mu / times)

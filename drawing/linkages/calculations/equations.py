@@ -203,7 +203,7 @@ def _distance(scene: Scene, made: Step) -> Product:
 
 def size_of(scene: Scene, name: str) -> float:
     """Return the magnitude of a quantity or of a value of the construction; what its plan shows as a point is zero."""
-    item, plan = scene.quantities.get(name), scene.solved.shown_on.get(name, "")
+    item, plan = scene.quantities.get(name), scene.figure_of(name)
     size = abs(scene.solved.size(name)) if item is None else abs(item.value or 0.0)
     return 0.0 if plan in scene.scales and size < POINT * scene.scales[plan].mu else size
 

@@ -18,6 +18,7 @@ import shapely
 from ....plans.board import POSITION
 from ....plans.laws import cross
 from ....plans.linkages.mechanism import FRAME, Driver, Pair, Prismatic
+from ....plans.linkages.solved import DRIVER
 from ....plans.linkages.structure import Group as LinkGroup
 from ....plans.names import role
 from ...areas import Shapes, lines
@@ -26,7 +27,6 @@ from ...shapes import Arrow, Group, Head, Line, Pen, Shape
 from ...symbols import arm as drawn_arm
 from ...symbols import turning_arrow, unit
 from ...view import Canvas, View
-from ..ladders import DRIVER
 from ..scene import Scene
 from .links import NEAR, Skeleton, Stroke, draw_links, foot_of, guide_of, letter_links, letter_point, rays_of
 from .scheme import special_points
