@@ -11,7 +11,7 @@ from .errors import InputError, Written
 SPACES = " \u00a0\u2007\u2009\u202f"
 _GROUPED = rf"[0-9]{{1,3}}(?:[{SPACES}][0-9]{{3}})+(?![0-9])"
 _NUMBER = re.compile(
-    rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
+    rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
 )
 _SIGNS, _RAISED = "0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻"
 _TIMES_TEN = re.compile(  # 7,31·10², 7,31*10^2, 7,31 х 10**2: the power of ten that stands behind a number

@@ -60,7 +60,7 @@ SPELLED = {  # in Ukrainian and English
 }
 REFUSED = {  # by key and the unit that is expected
     ("number-empty", "m"): ("", "   "),
-    ("number-bad", "m"): ("mm", "nan", "inf", "-inf mm", "55 5 mm", "280, mm", "60,", "1,500.5 mm", "--5 mm", "١٢ mm"),
+    ("number-bad", "m"): ("mm", "nan", "inf", "-inf mm", "55 5 mm", "280, 5 mm", "60,,", "1,500.5 mm", "--5 mm", "١٢ mm"),
     ("number-infinite", "m"): ("1e400", "1e-400 mm", "1e308 km", "1e154 m", "9e-13 m", "5e-324 mm", "9" * 100_000),
     ("number-infinite", "N"): ("-1.1e9 N",),
     ("number-infinite", "Pa"): ("1.1e15 Pa",),
@@ -77,7 +77,7 @@ REFUSED = {  # by key and the unit that is expected
 }
 READ = {  # SI value, by the unit that is expected and the text
     "m": {"55 mm": 55 / 1000, "55,5 mm": 0.0555, "55.5мм": 0.0555, "12 см": 0.12, "5 мкм": 5e-6, "3 / 4 mm": 0.75e-3}
-    | {".5 m": 0.5, "5. m": 5.0, "0.3 mm": 0.3 / 1000},
+    | {".5 m": 0.5, "5. m": 5.0, "5, m": 5.0, "0.3 mm": 0.3 / 1000},
     "mm": dict.fromkeys(("1e-3 m", "1*10^-3 m", "1 · 10⁻³ м", "1х10^(−3) м", "1,0×10**-3 м"), 1e-3),
     "rad/s": {"90 град/с": math.pi / 2}
     | dict.fromkeys(("765 об/хв", "765 об/мин", "765 rpm", "765 r/min", "765 1/min", "765 хв⁻¹"), 765 * math.pi / 30),

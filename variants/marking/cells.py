@@ -40,8 +40,8 @@ NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
 LONGEST = 250  # characters of a calculation
 DIGITS = 3  # from which a number with a decimal sign may be a rounded one
 ROUNDING = 1e-9  # part of a value
-_TOKEN = re.compile(r"\d+(?:[.,]\d+)?|[^\W\d_]+|[^\s]")
-_NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+_TOKEN = re.compile(r"\d+(?:[.,]\d*)?|[^\W\d_]+|[^\s]")
+_NUMBER = re.compile(r"\d+(?:[.,]\d*)?")
 _PI = re.compile(r"3[.,]14(?:1[56]\d*|2)?")  # written for pi
 _SIGNS = str.maketrans(
     {**dict.fromkeys("·×⋅∙•∗", "*"), **dict.fromkeys("−–", "-"), **dict.fromkeys(":÷∕", "/"), "º": "°"}
