@@ -60,7 +60,7 @@ SPELLED = {  # in Ukrainian and English
 }
 REFUSED = {  # by key and the unit that is expected
     ("number-empty", "m"): ("", "   "),
-    ("number-bad", "m"): ("mm", "nan", "inf", "-inf mm", "55 5 mm", "280, 5 mm", "60,,", "1,500.5 mm", "--5 mm", "١٢ mm"),
+    ("number-bad", "m"): ("mm", "nan", "inf", "-inf mm", "55 5 mm", "28, 5 mm", "6,,", "1,500.5 mm", "--5 mm", "١٢ mm"),
     ("number-infinite", "m"): ("1e400", "1e-400 mm", "1e308 km", "1e154 m", "9e-13 m", "5e-324 mm", "9" * 100_000),
     ("number-infinite", "N"): ("-1.1e9 N",),
     ("number-infinite", "Pa"): ("1.1e15 Pa",),
