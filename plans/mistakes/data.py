@@ -1,4 +1,4 @@
-"""Data, units, position, scales and reading: mistakes M01 to M22, M74, M117 and M123."""
+"""Data, units, position, scales and reading: mistakes M01 to M22, M74, M117, M123 and M126."""
 
 from __future__ import annotations
 
@@ -278,12 +278,19 @@ mistake("M18")(
 mistake("M19")(lambda scene: [scaled(PRINTED, *_readings(scene), at="")])
 # two digits of a number are transposed: that hangs on the number, and is found from the answers
 mistake("M123", by_scale=True)(lambda scene: ())
+# the other direction is taken as positive: that hangs on all senses and directions of a student
+mistake("M126")(lambda scene: ())
 
 
 def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
     """Return the construction in which a number was written for another one of the same digits, and gone on with."""
     step = scene.steps.get(f"_{name}", scene.steps[name])  # what is laid off and read again is calculated before
     return Broken("M123", scene.paper, scaled(abs(written / meant), step, how=f"{meant:.4g}", at=name))
+
+
+def opposed(scene: Scene, name: str) -> Broken:
+    """Return the construction as it is, of which all senses were written opposite, that of a quantity first."""
+    return Broken("M126", scene.paper, Change(name, {}))
 
 
 def other_orders(number: float) -> Iterator[tuple[float, float]]:

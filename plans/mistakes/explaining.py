@@ -6,9 +6,12 @@ the answers marked with it: what is still wrong is not explained. Where one mist
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import cmath
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import neg
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,10 +20,11 @@ from numpy.typing import NDArray
 from ..board import Step
 from ..hands.shaky import Paper
 from ..marking.again import Judged
-from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, nearest
-from ..marking.verdicts import CLEAR, Marking
+from ..marking.answers import DIRECTION, FREE, Answer, Line, Said, Verdict, known, miss, nearest
+from ..marking.key import Key
+from ..marking.verdicts import CLEAR, RATES, Marking, judge
 from .book import Book, Complex, Floats, Signature, key_of, signatures
-from .data import other_orders, transposed
+from .data import opposed, other_orders, transposed
 from .rules import BY_SCALE, Broken, Scene, broken
 
 MOST = 4.0  # tolerances beyond which a miss counts no more
@@ -40,6 +44,12 @@ BEAM = 4  # chains of mistakes that are made longer
 LOCAL = 16  # mistakes at one line that are looked at closely
 LINES = 3  # lines that stay wrong to which a mistake more is sought
 DEPTH = 4  # mistakes of one student that are named
+TELLING = 3  # senses that tell that all are opposite
+# what is opposite: senses of turning, and directions, counted the other way or from the other end; the simplest first
+OPPOSITE: tuple[tuple[bool, Callable[[float], float] | None], ...] = (
+    *((True, None), (False, neg), (False, math.pi.__add__), (True, neg), (True, math.pi.__add__)),
+)
+TURNING = (*RATES, "N*m")
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,6 +182,9 @@ class _Search:
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
         candidates = tuple(filter(self._tells, candidates))
+        if (other := self._opposed()) is not None:  # told once, and not as a chain of mistakes
+            alone = (one for one in candidates if len(one.mistakes) == 1 and not one.left and one.misses <= 1.0)
+            candidates = (*alone, other)
         return _Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
 
     def _tells(self, candidate: Candidate) -> bool:
@@ -183,6 +196,25 @@ class _Search:
             return False
         left = sum(not self.faulty.get(name, 0.0) <= CLEAR for name in candidate.left)
         return len(candidate.explained) > left or (len(candidate.explained) == left and candidate.misses <= CLOSELY)
+
+    def _opposed(self) -> Candidate | None:
+        """Return that all senses are opposite, and so many that this is no chance; None where they are not."""
+        key, answered = self.marking.key, [line for line in self.marking.lines if line.answer is not None]
+        for turning, direction in OPPOSITE:
+            turned = [_the_other_way(key, line.answer, turning, direction) for line in answered if line.answer]
+            both = zip(answered, turned, strict=True)
+            changed = [(line, one) for line, one in both if one != line.answer and abs(line.right) > line.allowed]
+            before = [_astray(key, line, line.answer) for line, _ in changed if line.answer]
+            if sum(before) < TELLING or any(_astray(key, *one) for one in changed):
+                continue
+            lines = judge(key, turned) or ()
+            left = tuple(line.name for line in lines if line.verdict.faulty)
+            explained = tuple(name for name in self.faulty if name not in left)
+            if explained and not any(line.verdict.faulty and line.about == DIRECTION for line in lines):
+                off = np.array([min(line.off, MOST) for line in lines if line.answer is not None])
+                mistake = opposed(Scene(key.paper, key.values), explained[0])
+                return Candidate((mistake,), (), explained, left, float(np.sqrt(np.mean(off * off))))
+        return None
 
     def _alone(self, made: Iterable[Signature]) -> list[_Found]:
         """Return the single mistakes that explain the first wrong line."""
@@ -383,6 +415,28 @@ class _Search:
             for line in self.marking.lines
         )
         return replace(self.marking, lines=lines, first_wrong=candidate.explained[0])
+
+
+def _the_other_way(key: Key, answer: Answer, turning: bool, direction: Callable[[float], float] | None) -> Answer:
+    """Return an answer with the opposite sense of turning, or with its direction counted in another way."""
+    if direction is not None and answer.direction is not None and known(answer.direction):
+        return replace(answer, direction=direction(answer.direction))
+    question = key.questions[answer.name]
+    if not turning or question.vector or question.unit not in TURNING:
+        return answer
+    if answer.sense:
+        return replace(answer, sense=-answer.sense)
+    if not answer.value or FREE.match(answer.name):  # whose sign says nothing
+        return answer
+    return replace(answer, value=-answer.value, plus=answer.value < 0.0)
+
+
+def _astray(key: Key, line: Line, answer: Answer) -> bool:
+    """Whether the sense of an answer, without a sign that of a positive number, is not the right one."""
+    told = answer.direction is not None and known(answer.direction)
+    turned = cmath.rect(1.0, answer.direction or 0.0) if told else None
+    sign = answer.sense or (int(math.copysign(1.0, answer.value)) if answer.value else None)
+    return miss(Said(None, sign, turned), line.right, line.allowed, key.angles.get(line.name, math.pi)).off > 1.0
 
 
 def _columns(marking: Marking) -> _Answers:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import pytest
@@ -122,6 +122,38 @@ def test_scales_of_the_students_own_are_those_that_count() -> None:
 
     assert mark(of, inverted)["V_BA"].verdict is Verdict.SCALE
     assert "M14" in found.candidates[0].ids
+
+
+@pytest.mark.parametrize(
+    ("turning", "direction"),
+    [
+        pytest.param(-1, lambda angle: angle, id="clockwise is positive"),
+        pytest.param(1, lambda angle: -angle, id="angles are counted clockwise"),
+        pytest.param(-1, lambda angle: -angle, id="both"),
+        pytest.param(-1, lambda angle: angle + math.pi, id="all arrows and signs"),
+    ],
+)
+@pytest.mark.parametrize("task", some(("nau-slider-crank", "scheme-09-shaper", "scheme-03-crank-rocker"), 0, 1))
+def test_senses_that_all_are_opposite_are_one_mistake(
+    task: str, turning: int, direction: Callable[[float], float]
+) -> None:
+    of = key(task)
+    turns = [name for name, one in of.questions.items() if one.unit in ("rad/s", "rad/s^2", "N*m") and of[name]]
+
+    def opposite(*kept: str) -> _Explanation:
+        answers = []
+        for one in right_answers(of):
+            said = one if one.direction is None else replace(one, direction=direction(one.direction))
+            turned = turning if one.name in turns and one.name not in kept else 1
+            answers.append(said if one.sense is None else replace(said, sense=turned * one.sense))
+        return explained(task, answers)
+
+    found = opposite()
+
+    assert [[one.mistake for one in candidate.mistakes] for candidate in found.candidates] == [["M126"]]
+    assert len([line for line in found.marking.lines if line.verdict.faulty]) == 1
+    other = opposite(next(name for name in turns if name.startswith("epsilon"))).candidates
+    assert turning > 0 or "M126" not in {id for candidate in other for id in candidate.ids}  # where one sense is right
 
 
 @pytest.mark.parametrize(
