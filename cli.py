@@ -5,8 +5,9 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
 
 INTERRUPTED = 130
+STEM, ENDING = 4, 2  # letters of a word that count at least, and that may be its ending
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -127,29 +129,44 @@ def show_guide(topic: str | None, lang: str | None) -> None:
     page(guide(topic, system_language()))
 
 
-@console.command("kulman list", "kulman list --json", name="list")
+@console.command("kulman list", "kulman list кулачковий", "kulman list --json", name="list")
+@click.argument("words", metavar="WORD...", nargs=-1, shell_complete=helping.completing(helping.tasks))
 @console.as_json
 @click.option("--check", "file", metavar="FILE", shell_complete=helping.files)
 @console.of_language
-def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
-    """Show the tasks, their variants, and what each draws."""
+def list_tasks(words: tuple[str, ...], as_json: bool, file: str | None, lang: str | None) -> int:
+    """Show the tasks, or those with these words in their names, their variants, and what each draws."""
     from .variants.shelf import bundled, summary
 
     if file is not None:
+        if words:
+            raise InputError("handout-apart", first="--check", second=quote(words[0]))
         return _check(file, as_json)
-    tasks = [summary(task) for task in bundled()]
+    tasks = [task for task in map(summary, bundled()) if _is_called(task, " ".join(words))]
+    if not tasks:
+        raise unknown("bundled-unknown", " ".join(words), bundled())
     language = system_language()
     if as_json:
         console.print_json({"tasks": tasks})
         return 0
-    words = messages(language)
+    said = messages(language)
     for task in tasks:
         click.echo(f"{task['id']}  {task['title'][language]}")
         for key in ("variants", "plans"):
-            click.echo(f"    {words[f'list-{key}']}: {', '.join(task[key])}")
+            click.echo(f"    {said[f'list-{key}']}: {', '.join(task[key])}")
         if "note" in task:
-            click.echo(f"    {words['list-note']}: {task['note'][language]}")
+            click.echo(f"    {said['list-note']}: {task['note'][language]}")
     return 0
+
+
+def _is_called(task: Mapping[str, Any], words: str) -> bool:
+    """Whether the id of a task and its titles in all languages have all these words, whatever their endings."""
+    name, asked = (
+        re.findall(r"[^\W_]+", text.casefold().replace("ё", "е"))
+        for text in (" ".join((task["id"], *task["title"].values())), words)
+    )
+    stems = (word[: max(STEM, len(word) - ENDING)] for word in asked)
+    return all(any(one.startswith(stem) for one in name) for stem in stems)
 
 
 def _check(file: str, as_json: bool) -> int:

@@ -102,6 +102,33 @@ def test_without_a_command_the_help_is_shown_and_the_version_where_it_is_asked_f
     assert run("--version") == (0, f"{__version__}\n", "")
 
 
+@pytest.mark.parametrize(
+    ("words", "tasks"),
+    [
+        pytest.param(["shaper", "slotted"], ["scheme-09-shaper"], id="of the name and of the title"),
+        pytest.param(["Поперечно-стругальний", "верстат"], ["scheme-09-shaper"], id="Ukrainian, as one names it"),
+        pytest.param(["щёковая", "дробилка"], ["scheme-14-jaw-crusher"], id="Russian, as one names it"),
+        pytest.param(["nau slider"], ["nau-slider-crank"], id="in one argument"),
+    ],
+)
+def test_a_list_of_words_has_the_tasks_that_are_called_so_in_any_language(
+    words: list[str], tasks: list[str], run: Run
+) -> None:
+    for lang in LANGUAGES:
+        out = run("list", *words, "--lang", lang)[1]
+        listed = json.loads(run("list", *words, "--json", "--lang", lang)[1])["tasks"]
+
+        assert [task["id"] for task in listed] == tasks == [x.split()[0] for x in out.splitlines() if x[:1] != " "]
+
+
+def test_words_of_no_task_are_refused_and_so_are_words_beside_a_file_to_be_checked(run: Run) -> None:
+    status, out, err = run("list", "lathe", "--lang", "en")
+
+    assert (status, out) == (2, "")
+    assert err.startswith("there is no bundled task 'lathe'; there are: ")
+    assert run("list", "shaper", "--check", TASK, "--lang", "en") == (2, "", "expected --check without shaper\n")
+
+
 def test_a_check_shows_every_fault_of_a_file(folder: Path, run: Run) -> None:
     text = bundled_text(TASK).replace('l_OA = "30 mm"', 'l_OA = "0 mm"').replace('"45 deg"', '"45 kg"')
     Path("bad.toml").write_text(text, encoding="utf-8")
