@@ -45,8 +45,12 @@ DANGEROUS = tuple("=+-@|%\t\r\n＝＋－＠")  # with which programs begin a for
 _INSIDE = re.compile(r"([,;\t\r\n][^\S\t\r\n]*+)(?=[=@|%＝＠]|[-+－＋][^,;\t\r\n]*[(|!=@])")
 _CREATED = datetime(2000, 1, 1)
 _WIDEST, _PIXELS, _LINE = 45, 7, 15  # characters of a column, how wide each is, and points that a line is high
-_PORTRAIT, _LANDSCAPE, _SCREEN = 120, 330, 180  # characters that pages, printed small, and a screen are wide
-_A4 = 9  # the number of that paper
+_PORTRAIT, _LANDSCAPE, _SCREEN = 120, 220, 180  # characters that pages, printed small, and a screen are wide
+_A4, _MARGIN = 9, 0.4  # the number of that paper, inches
+_SMALLEST, _HANDY = (
+    65,
+    25,
+)  # per cent at which 11 points are 7; points of a row that a hand fills there
 MANY = 5_000  # rows from which on writing them takes seconds
 # who is told how much more of a long table is written, and of how much
 watching: ContextVar[Callable[[int, int], None] | None] = ContextVar("watching", default=None)
@@ -399,9 +403,11 @@ def plain(data: Any) -> Any:
     return data
 
 
-def table_bytes(path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
-    """Return rows as the kind of file that the suffix of `path` picks."""
-    return _xlsx_bytes(rows, title, bold, frozen) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
+def table_bytes(
+    path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0, high: int = _LINE
+) -> bytes:
+    """Return rows as the kind of file that the suffix of `path` picks, those of a workbook so many points `high`."""
+    return _xlsx_bytes(rows, title, bold, frozen, high) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
 
 
 def save_form(
@@ -416,7 +422,7 @@ def save_form(
     """Save rows to be filled in; a file of the name that holds anything else, as one that is filled in, stays."""
 
     def made(path: Path) -> Files:
-        data = table_bytes(path, rows, language, title, bold, frozen)
+        data = table_bytes(path, rows, language, title, bold, frozen, _HANDY if frozen == 1 else _LINE)
         if path.is_file() and path.read_bytes() != data:
             raise InputError("output-exists", file=quote(path, SHOWN))
         return [(path, data)]
@@ -542,13 +548,14 @@ def _rounded(value: float) -> str:
     return f"{value:.10g}"
 
 
-def _xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
+def _xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0, high: int = _LINE) -> bytes:
     """Return rows as a workbook of one sheet, named by a title; texts are texts there, whatever they begin with.
 
     `bold` rows are counted from 0; so many as are `frozen`, the last of them the heads, stay in sight when the sheet is
     scrolled, and of a wide sheet its first column. Columns are as wide as their longest texts, up to a limit; what is
     longer, and heads, go on in a next line, and a text that has its row to itself goes over all columns. A wide sheet
-    is printed in landscape, on as many pages side by side as it can be read on.
+    is printed in landscape, on as many pages side by side as it can be read on, each with its lines and the first
+    column.
     """
     from xlsxwriter import Workbook  # takes a tenth of a second
 
@@ -587,10 +594,17 @@ def _xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 
             if alone:
                 sheet.merge_range(at, 0, at, max(widths), text, wrapped)
             lines[at] = max(lines.get(at, 1), len(wrap(text, whole if alone else widths.get(column, _WIDEST))))
+        sheet.set_default_row(high)
         for at, count in lines.items():  # not every program finds out by itself
-            sheet.set_row(at, _LINE * count)
+            sheet.set_row(at, max(_LINE * count, high))
         sheet.set_paper(_A4)
-        sheet.fit_to_pages(math.ceil(whole / _LANDSCAPE), 0)
+        sheet.set_margins(*[_MARGIN] * 4)
+        sheet.hide_gridlines(0)  # printed, too
+        if whole > _LANDSCAPE:  # to be taken together by its first column
+            sheet.set_print_scale(_SMALLEST)
+            sheet.repeat_columns(0)
+        else:
+            sheet.fit_to_pages(1, 0)
         if whole > _PORTRAIT:
             sheet.set_landscape()
         if frozen:

@@ -33,6 +33,7 @@ from kulman.variants.roster import Entry, Roster, Who
 
 TASK = "nau-slider-crank"
 ASKED = ("V_A", "V_BA", "V_B", "V_S2", "omega_2", "a_BA_n", "a_BA_t", "a_B", "a_S2", "R_12", "R_32", "M_bal")
+CHARACTER = 7 / 96 * 25.4  # mm that a character of a column is wide
 MUS = {"mu_V": "velocity", "mu_a": "acceleration", "mu_F_23": "forces_23"}
 
 
@@ -303,6 +304,24 @@ def test_the_form_of_a_class_has_its_students_and_reports_their_names(
     assert {"μ_V", "V_B, мм", "V_B, м/с", "V_B, напрям", "ω_2, рад/с", "ω_2, напрям"} <= {*rows[0]}
     for name, stem in (("Іваненко І. І.", "Іваненко-І-І"), ("../../etc", "etc"), ("???", "x")):
         assert slug(name) == stem
+
+
+@pytest.mark.parametrize("only", [None, "velocity", "structure,position"])
+def test_a_form_of_a_class_is_printed_so_that_it_can_be_read_and_filled_in(tmp_path: Path, only: str | None) -> None:
+    roster = write(tmp_path, [["student", "variant"], *([f"Student {n}", n % 10] for n in range(30))], name="roster")
+    asked = check("scheme-09-shaper", only=only, roster=roster, lang="uk")
+    sheet = openpyxl.load_workbook(asked.write_form(tmp_path / "form.xlsx")).active
+    assert sheet is not None
+
+    wide = sum(column.width * (column.max - column.min + 1) for column in sheet.column_dimensions.values())
+    across = (297 if sheet.page_setup.orientation == "landscape" else 210) - 25.4 * 2 * sheet.page_margins.left
+    fitted = sheet.sheet_properties.pageSetUpPr is not None and sheet.sheet_properties.pageSetUpPr.fitToPage
+    scale = min(1.0, across / (wide * CHARACTER)) if fitted else (sheet.page_setup.scale or 100) / 100
+
+    assert 11 * scale >= 7.0  # points
+    assert sheet.sheet_format.defaultRowHeight * scale / 72 * 25.4 >= 5.5
+    assert (fitted, sheet.page_setup.fitToWidth or 1) == (True, 1) or sheet.print_title_cols == "$A:$A"
+    assert (sheet.print_title_rows, sheet.print_options.gridLines) == ("$1:$1", True)
 
 
 @pytest.mark.parametrize(("language", "head"), [("en", "l_CA, segment, mm"), ("uk", "l_CA, відрізок, мм")])
