@@ -7,6 +7,7 @@ pages that move, the steps are told in the words of the note.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -17,12 +18,12 @@ from ...plans.board import POSITION, Program
 from ...plans.boards.exact import run
 from ...plans.boards.geogebra import GeoGebraBoard, Item, Labels
 from ...plans.laws import TURN, dot
-from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.linkages.compound import ACCELERATION, TOTAL, VELOCITY
 from ...plans.linkages.cycle import Cycle
 from ...plans.linkages.loads import BEGIN, END
 from ...plans.linkages.mechanism import start_names
 from ...plans.linkages.parts import SYMBOLS
-from ...plans.names import FORCES, Name, by_lever, magnitude, role
+from ...plans.names import FORCES, Name, by_lever, magnitude, role, vector
 from ...plans.quantities import F_BAL, M_BAL
 from ...scales.units import unit
 from ..geogebra import (
@@ -73,6 +74,7 @@ MARK = Look(seen=True, labelled=True)
 GRABBED = replace(MARK, size=4, colour=GRIP, lists=True)
 POINTS = {"pin": replace(MARK, size=4, style=RING), "pivot": replace(MARK, size=6, style=SUPPORT)}
 NEWLINE = "\n"
+WORD = re.compile("[a-z]{4}")
 RATES, BALANCES = ("omega", "epsilon"), (M_BAL, F_BAL, by_lever(M_BAL), by_lever(F_BAL))
 
 
@@ -127,8 +129,10 @@ class Construction:
     def _label(self, name: str, seen: bool) -> str:
         if "." in name or name in self.teller.points:
             return self._labels.take(self._letter(name), _sign(role(name).plan))
-        symbol = self.words.symbol(role(name).shown)
-        return self._labels.take(symbol if seen else f"{symbol}_{{0}}", role(name).of)
+        symbol, beside = self.words.symbol(role(name).shown), role(name).of
+        if WORD.search(symbol):  # of the program, in English: it would stand in the list of steps
+            symbol, beside = symbol[0], ""
+        return self._labels.take(symbol if seen else f"{symbol}_{{0}}", beside)
 
     def _letter(self, name: str) -> str:
         """Return the letter of a mark."""
@@ -394,9 +398,11 @@ class Construction:
         reading = self.teller.reading
         for step, _, start, direction in reading.meetings(plan):
             yield {"k": "line", "a": start, "u": direction, "b": step.name, "step": step.name}
-        for edge in reading.on(plan):
-            vector = {"k": "vector", "a": edge.tail, "b": edge.tip, "q": role(edge.name).shown}
-            yield {**vector, "step": reading.drawn_with(edge)}
+        for edge in reading.on(plan):  # the total has the name of the quantity that it shows
+            name = role(edge.name)
+            shown = vector(name.kind, role(plan).of) if name.part == TOTAL else name.shown
+            drawn = {"k": "vector", "a": edge.tail, "b": edge.tip, "q": shown}
+            yield {**drawn, "step": reading.drawn_with(edge)}
 
     def _looked_at(self) -> Iterator[Mapping[str, Any]]:
         """Go through positions over the cycle, each by its values."""

@@ -21,6 +21,7 @@ from .trace import Real, TracingBoard, Vector
 _WORDS = """x y z e i pi π ί ℯ abs sgn sqrt cbrt exp ln ld lg log cos sin tan sec csc cot cosh sinh tanh acos asin atan
 atan2 floor ceil round random gamma arg alt real imaginary conjugate xAxis yAxis zAxis true false"""
 RESERVED = frozenset(_WORDS.split())
+_SIGN = re.compile(r"\\[a-z]+")  # of markup: the bar of a vector
 _SCRIPT = re.compile(r"[_^]\{([^{}]*)\}|[_^](.)")
 _STEM = re.compile(r"[^\W\d]+'*")
 _LEFT = re.compile(r"\W|_")  # what an index does not hold
@@ -71,6 +72,7 @@ class Labels:
         >>> labels.take("a^{n}_{BA}"), labels.take("e", "45"), labels.take("e", "45"), labels.take("S3")
         ('a_{nBA}', 'e_{45}', 'e_{452}', 'S_{3}')
         """
+        wanted = _SIGN.sub("", wanted)
         scripts = "".join(one or other for one, other in _SCRIPT.findall(wanted))
         letters = re.sub(r"[^\w']|_", "", _SCRIPT.sub("", wanted).replace("′", "'").replace("″", "''"))
         stem = _STEM.match(letters)

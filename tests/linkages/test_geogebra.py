@@ -180,6 +180,18 @@ def test_the_bar_stops_at_every_step_that_the_note_tells_in_its_words(language: 
     assert evaluator.root.find("gui/consProtocol").get("showOnlyBreakpoints") == "true"
 
 
+@pytest.mark.parametrize("task", some(TASKS, 0, 19))
+@pytest.mark.parametrize("language", ["uk", "ru"])
+def test_no_object_is_called_by_an_english_word(task: str, language: str) -> None:
+    _, evaluator = construction(task, language)
+    own = {re.sub(r"\W|_", "", name) for name in load_task(task).givens}  # as the author of a task calls them
+
+    labels = {label: re.sub(r"\W|_", "", label) for label in evaluator.elements}
+    assert len(labels) > 100
+    assert [label for label, plain in labels.items() if re.search("[a-z]{4}", plain) and plain not in own] == []
+    assert not any("bar" in label for label in labels)
+
+
 def test_letters_are_those_of_the_sheet() -> None:
     _, evaluator = construction("scheme-09-shaper")
     seen = {label for label, entry in evaluator.elements.items() if entry.find("show").get("label") == "true"}
