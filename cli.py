@@ -24,7 +24,7 @@ from .scales.errors import (
     speaking,
     system_language,
 )
-from .scales.kept import seldom_collected
+from .scales.kept import collect_seldom
 from .scales.names import unknown
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
@@ -45,7 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         console.encode(stream)
     atexit.register(gc.freeze)  # nothing is looked through at the end, which takes a tenth of the time of charts
     words = sys.argv[1:] if arguments is None else arguments
-    with seldom_collected(), speaking(words):
+    collect_seldom()  # to the very end
+    with speaking(words):
         sys.exit(_run(words))
 
 

@@ -11,11 +11,20 @@ Made = TypeVar("Made")
 COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 MB
 
 
-@contextmanager
-def seldom_collected() -> Iterator[None]:
-    """Look for garbage less often, in this process and its copies: what is kept is gone through every time."""
+def collect_seldom() -> tuple[int, int, int]:
+    """Look for garbage less often, in this process and its copies, than is usual, which is returned.
+
+    What is kept is gone through every time, and all that is young as soon as it is looked for as often as before.
+    """
     usual = gc.get_threshold()
     gc.set_threshold(max(COLLECTED, usual[0]) if usual[0] else 0, *usual[1:])
+    return usual
+
+
+@contextmanager
+def seldom_collected() -> Iterator[None]:
+    """Look for garbage less often for a while."""
+    usual = collect_seldom()
     try:
         yield
     finally:

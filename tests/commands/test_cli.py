@@ -348,6 +348,15 @@ def test_an_interrupt_is_quiet_and_a_fault_of_the_program_itself_is_not_hidden(
         cli.main(["solve", TASK])
 
 
+def test_no_garbage_is_looked_for_while_a_sheet_is_drawn_nor_afterwards(tmp_path: Path) -> None:
+    code = "import atexit, gc, kulman.cli\ngc.collect()\ngc.callbacks.append(lambda when, _: print(when))\n"
+    code += "atexit.register(gc.callbacks.clear)\nkulman.cli.main(['sheet', 'nau-slider-crank', '-o', 'x.svg'])"
+
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+
+    assert done.stdout.split() == ["x.svg"]
+
+
 def test_the_list_loads_nothing_heavy(tmp_path: Path) -> None:
     code = "import sys; sys.argv = ['kulman', 'list']\nimport atexit, kulman.cli\n"
     code += "atexit.register(lambda: print(*sorted(sys.modules), file=sys.stderr))\nkulman.cli.main()"
