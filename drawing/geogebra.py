@@ -6,13 +6,13 @@ The view is in millimetres of the drawing. The bar under it goes from breakpoint
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from xml.sax.saxutils import quoteattr
 
 from ..plans.boards.geogebra import Item
-from .text import Piece, Ruling, read
+from .text import spelled
 
 INK, THIN, GRIP = (0, 0, 0), (110, 110, 110), (179, 38, 30)  # results, construction, what is meant to be dragged
 FULL, DASHED, AXIS, DOTTED = 0, 10, 30, 20  # types of lines
@@ -67,37 +67,25 @@ def string(text: str) -> str:
 def indexed(markup: str) -> str:
     """Return a line of markup as GeoGebra shows plain texts: indices are lowered, some letters stand raised."""
 
-    def plain(pieces: Sequence[Piece]) -> str:
-        parts = []
-        for piece in pieces:
-            if isinstance(piece, dict):
-                above, below = (plain(piece.get(sign, [])) for sign in "^_")
-                raised = "".join(RAISED.get(letter, "") for letter in above)
-                index = below if len(raised) == len(above) else f"{below} {above}".strip()
-                parts.append((raised if index == below else "") + (f"_{{{index}}}" if index else ""))
-            else:
-                parts.append(plain(piece.pieces) if isinstance(piece, Ruling) else piece)
-        return "".join(parts)
+    def scripted(above: str, below: str) -> str:
+        raised = "".join(RAISED.get(letter, "") for letter in above)
+        index = below if len(raised) == len(above) else f"{below} {above}".strip()
+        return (raised if index == below else "") + (f"_{{{index}}}" if index else "")
 
-    return plain(read(markup))
+    return spelled(markup, scripted=scripted)
 
 
 def tex(markup: str) -> str:
     """Return a symbol as LaTeX, in which scripts stand over one another and vectors have their bars."""
 
-    def inner(pieces: Sequence[Piece]) -> str:
-        parts = []
-        for piece in pieces:
-            if isinstance(piece, dict):
-                parts += [f"{sign}{{{inner(script)}}}" for sign, script in piece.items()]
-            elif isinstance(piece, Ruling):
-                parts.append(f"\\overline{{{inner(piece.pieces)}}}" if piece.kind == "bar" else inner(piece.pieces))
-            else:
-                text = piece.replace("′", "'").replace("″", "''")
-                parts.append(text if text.isascii() or len(text) == 1 else f"\\text{{{text}}}")
-        return "".join(parts)
+    def plain(text: str) -> str:
+        text = text.replace("′", "'").replace("″", "''")
+        return text if text.isascii() or len(text) == 1 else f"\\text{{{text}}}"
 
-    return inner(read(markup))
+    def scripted(above: str, below: str) -> str:
+        return "".join(f"{sign}{{{script}}}" for sign, script in (("^", above), ("_", below)) if script)
+
+    return spelled(markup, plain, scripted, lambda kind, text: f"\\overline{{{text}}}" if kind == "bar" else text)
 
 
 def _written(item: Item, look: Look) -> str:

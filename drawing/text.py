@@ -122,6 +122,39 @@ def read(markup: str) -> list[Piece]:
     return _read(markup, 0, nested=False)[0]
 
 
+def spelled(
+    markup: str,
+    plain: Callable[[str], str] = str,
+    scripted: Callable[[str, str], str] = str.__add__,
+    ruled: Callable[[str, str], str] = lambda kind, inside: inside,
+) -> str:
+    """Return markup in another notation; by itself nothing is left of it but its characters.
+
+    The notation has `plain` characters so; it is told what stands above and below of what is `scripted`, of what is
+    `ruled` the kind of the rule and what it holds.
+
+    >>> spelled("a^{n}_{BA}"), spelled("V_{B}", scripted="<sup>{}</sup><sub>{}</sub>".format)
+    ('anBA', 'V<sup></sup><sub>B</sub>')
+    """
+
+    def spell(pieces: Iterable[Piece]) -> str:
+        return "".join(
+            plain(piece)
+            if isinstance(piece, str)
+            else ruled(piece.kind, spell(piece.pieces))
+            if isinstance(piece, Ruling)
+            else scripted(*(spell(piece.get(sign, ())) for sign in "^_"))
+            for piece in pieces
+        )
+
+    return spell(read(markup))
+
+
+def html_scripts(above: str, below: str) -> str:
+    """Return what stands above and below as HTML."""
+    return (f"<sup>{above}</sup>" if above else "") + (f"<sub>{below}</sub>" if below else "")
+
+
 def _read(markup: str, at: int, nested: bool) -> tuple[list[Piece], int]:
     """Read up to the end, or up to the brace that closes a group; return the pieces, and the place behind them."""
     pieces: list[Piece] = []

@@ -407,21 +407,6 @@ def _base(parts: list[Node]) -> Node:
     return Plain(last.text[cut:])
 
 
-def letters(markup: str) -> str:
-    """Return a line without anything but its characters."""
-
-    def text(node: Node) -> str:
-        match node:
-            case Plain(text=plain):
-                return plain
-            case Ruled(parts=parts):
-                return "".join(map(text, parts))
-            case _:
-                return text(node.base) + "".join(map(text, (*node.above, *node.below)))
-
-    return "".join(map(text, parse(markup)))
-
-
 def printable(text: str) -> str:
     """Return characters that can be seen, and spaces for others, which may turn a line about or end a file.
 

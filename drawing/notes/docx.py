@@ -20,7 +20,7 @@ from ..formats import FORMATS
 from ..pdf import write_png
 from ..svg import svg_text
 from ..tables import cells as cells_of
-from ..text import lay_out
+from ..text import lay_out, spelled
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Profile, Sentences, Steps, Table, displayed
 from .omml import built_up, node, quoted, whole
@@ -377,7 +377,7 @@ def _contents(document: Document) -> Iterator[str]:
     ends = len(entries) if isinstance(document.blocks[0], Heading) else 0  # the last entry; a heading begins its page
     counted = accumulate(block.numbered for block in entries)
     for number, (block, place) in enumerate(zip(entries, counted, strict=True), 1):
-        entry = f"{f'{place} ' if block.numbered else ''}{note.letters(block.text)}"
+        entry = f"{f'{place} ' if block.numbered else ''}{spelled(block.text)}"
         page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
         shown = f"{_words(entry)}<w:r><w:tab/></w:r>{page}"
         linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
@@ -538,7 +538,7 @@ def _caption(figure: Figure, said: dict[str, str], number: str) -> str:
 def _drawing(figure: Figure, picture: Picture, number: int) -> str:
     """Return a picture as large as the figure is shown; what it shows is told to who cannot see it."""
     cx, cy = (round(mm * figure.share * EMU) for mm in figure.view.size)
-    told = quoted("; ".join(map(note.letters, (figure.caption, *figure.under))))
+    told = quoted("; ".join(map(spelled, (figure.caption, *figure.under))))
     name, size = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"', f'cx="{cx}" cy="{cy}"'
     return (
         f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/><wp:docPr {name}/>'

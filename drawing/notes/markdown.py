@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 
 from ...scales.packaged import packaged
+from ..text import html_scripts, spelled
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 
@@ -45,22 +46,12 @@ def _block(block: Block, number: int, said: dict[str, str], figures: Sequence[st
             name = figures[number - 1]
             if re.search(r"[\s()<>]", name):  # the target of a link holds these only within signs of its own
                 name = "<" + re.sub(r"([<>\\])", r"\\\1", name) + ">"
-            yield f"![{_plain(note.letters(caption))}]({name})"
+            yield f"![{_plain(spelled(caption))}]({name})"
             yield "  \n".join((f"*{said['figure']} {number} – {_line(caption)}*", *map(_line, under)))
 
 
 def _line(markup: str) -> str:
-    return "".join(map(_node, note.parse(markup)))
-
-
-def _node(node: note.Node) -> str:
-    if isinstance(node, note.Plain):
-        return _plain(node.text)
-    if isinstance(node, note.Ruled):
-        inner = "".join(map(_node, node.parts))
-        return RULED[node.kind](inner)
-    above, below = ("".join(map(_node, parts)) for parts in (node.above, node.below))
-    return _node(node.base) + (f"<sup>{above}</sup>" if above else "") + (f"<sub>{below}</sub>" if below else "")
+    return spelled(markup, _plain, html_scripts, lambda kind, text: RULED[kind](text))
 
 
 RULED: dict[str, Callable[[str], str]] = {

@@ -20,9 +20,8 @@ import pypdfium2
 import pytest
 
 from kulman import all_variants, batch, check, load_task, note, sheet
-from kulman.drawing.notes.blocks import letters
 from kulman.drawing.notes.omml import _atoms_of
-from kulman.drawing.text import escape, lay_out
+from kulman.drawing.text import escape, lay_out, spelled
 from kulman.drawing.titleblock import _surname, _with_initials
 from kulman.drawing.writers import slug
 from kulman.scales.errors import InputError, KulmanError
@@ -385,7 +384,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "surname": _surname,
     "initials": _with_initials,
     "escaped": escape,
-    "markup": lambda text: letters(escape(text)),
+    "markup": lambda text: spelled(escape(text)),
     "laid out": lambda text: lay_out(escape(text), 3.5),
     "atoms": lambda text: _atoms_of(escape(text)),
     "wording": plain,

@@ -32,11 +32,11 @@ from kulman.drawing.notes.blocks import (
     Steps,
     Table,
     displayed,
-    letters,
 )
 from kulman.drawing.notes.docx import SPACES, _folded_in_word, blocks_in_word, docx_bytes, line
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.omml import built_up
+from kulman.drawing.text import spelled
 from kulman.tests.support.cases import some
 
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
@@ -168,7 +168,7 @@ def test_what_leads_somewhere_leads_there_and_the_contents_to_every_heading() ->
     entries = [line.strip() for style, line in told if style == "TOC1" and line.strip()]
     counted = accumulate(heading.numbered for heading in headings)
     assert entries == [
-        f"{number} {letters(one.text)}" if one.numbered else one.text
+        f"{number} {spelled(one.text)}" if one.numbered else one.text
         for one, number in zip(headings, counted, strict=True)
     ]
     assert [one.text for one in headings if not one.numbered] == ["ВСТУП", "ВИСНОВКИ", "СПИСОК ВИКОРИСТАНИХ ДЖЕРЕЛ"]
@@ -182,20 +182,20 @@ def test_what_leads_somewhere_leads_there_and_the_contents_to_every_heading() ->
 
 def assert_all_blocks(document: Document, body: Any, told: list[tuple[str, str]]) -> None:
     text = [bare(line) for _, line in told]
-    headings = [bare(letters(block.text)) for block in document.blocks if isinstance(block, Heading)]
+    headings = [bare(spelled(block.text)) for block in document.blocks if isinstance(block, Heading)]
     assert [bare(line) for style, line in told if style == "Heading1"] == headings
     for block in document.blocks:
         match block:
             case Sentences(texts=texts):
-                assert bare(" ".join(map(letters, texts))) in text
+                assert bare(" ".join(map(spelled, texts))) in text
             case Steps(texts=texts):
-                assert {bare(letters(step)) for step in texts} <= set(text)
+                assert {bare(spelled(step)) for step in texts} <= set(text)
             case Figure(caption=caption):
-                assert any(bare(letters(caption)) in bare(line) for style, line in told if style == "Caption")
+                assert any(bare(spelled(caption)) in bare(line) for style, line in told if style == "Caption")
     tables = [block for block in document.blocks if isinstance(block, Table)]
     shown = [table for table in body.findall(f"{W}tbl") if table.find(f"{W}tblPr/{W}tblStyle") is not None]
     for block, table in zip(tables, shown, strict=True):
-        cells = [bare(letters(cell)) for row in block.rows for cell in row if cell]
+        cells = [bare(spelled(cell)) for row in block.rows for cell in row if cell]
         assert cells == [bare(line) for _, line in paragraphs(table) if line]
 
 
@@ -293,7 +293,7 @@ def test_units_are_words_and_symbols_formulas(markup: str, formulas: list[str]) 
     found = parsed(line(markup))
 
     assert [said(formula) for formula in found.iter(f"{M}oMath")] == formulas
-    assert bare(said(found)) == bare(letters(markup))
+    assert bare(said(found)) == bare(spelled(markup))
     tied = parsed(line("r_{0} = 45.26 mm, more"))  # no line ends between a letter, its number and the unit
     assert said(tied) == "r_{0}\u00a0= 45.26\u00a0mm, more"
 
@@ -316,7 +316,7 @@ def test_pictures_are_as_large_as_the_figures() -> None:
     for figure, shape in zip(kinds(Figure), word.inline_shapes, strict=True):
         size = [mm * figure.share for mm in figure.view.size]
         assert (shape.width, shape.height) == tuple(round(mm * EMU) for mm in size)
-        assert letters(figure.caption) in shape._inline.docPr.get("descr")
+        assert spelled(figure.caption) in shape._inline.docPr.get("descr")
         blip = next(shape._inline.iter(f"{A}blip"))
         png = Image.open(BytesIO(word.part.related_parts[blip.embed].blob))
         assert [n / 300 * 25.4 for n in png.size] == pytest.approx(size, abs=25.4 / 300)

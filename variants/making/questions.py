@@ -10,10 +10,10 @@ from html import escape
 
 import numpy as np
 
-from ...drawing.notes.blocks import Node, Plain, Ruled, parse
 from ...drawing.page import Page, extent
 from ...drawing.shapes import Text, shifted
 from ...drawing.svg import svg_text
+from ...drawing.text import html_scripts, spelled
 from ...drawing.view import View
 from ...plans.hands.shaky import Hand
 from ...plans.hands.spread import SEED, drawn, kept
@@ -180,17 +180,7 @@ def html(markup: str) -> str:
     >>> html("a^{n}_{BA}")
     'a<sup>n</sup><sub>BA</sub>'
     """
-    return "".join(map(_node, parse(markup)))
-
-
-def _node(node: Node) -> str:
-    if isinstance(node, Plain):
-        return escape(node.text)
-    if isinstance(node, Ruled):
-        return "".join(map(_node, node.parts))
-    above, below = ("".join(map(_node, parts)) for parts in (node.above, node.below))
-    raised, lowered = f"<sup>{above}</sup>" * bool(above), f"<sub>{below}</sub>" * bool(below)
-    return f"{_node(node.base)}{raised}{lowered}"
+    return spelled(markup, escape, html_scripts)
 
 
 def xml_bytes(questions: Iterable[Question]) -> bytes:
