@@ -153,7 +153,8 @@ def solve_many(
     set : mapping, optional
         As for `solve`, `{"l_OA": "55 mm"}`; also numbers and their unit, `{"phi": ([0, 45, 90], "deg")}`.
     names : str or iterable of str, optional
-        The quantities and points wanted, `"V_B,M_bal"`; all of the plans without it. Fewer are found sooner.
+        The quantities and points wanted, `"V_B,M_bal"`; all of the plans without it. Fewer are found sooner. A
+        component, `"B.x"`, comes with the whole.
     **givens : str, number, array, or a pair of these and a unit
         The same by keyword, where numbers alone are in SI: `phi=numpy.linspace(0, 6.28, 361)`. They broadcast. In
         `set` numbers alone would be in the unit of the task, as on the command line: they have to say theirs.
@@ -201,7 +202,7 @@ def solve_many(
         first[name] = of.from_si(float(read[name].flat[0]))
     bare = ((name, read[name], value) for name, value in givens.items() if name in read)
     for said in (said for name, array, value in bare for said in _of_another_unit(asked, name, array, value)):
-        warnings.warn(str(said), stacklevel=2)
+        warnings.warn(str(said), stacklevel=3)  # of who calls, past what holds kinds of arguments
     case = Request(asked, variant, first, only, language="en" if lang is None else lang).case()
     if not isinstance(case.kind, Linkages):
         raise InputError("many-linkages", task=asked.id)
@@ -266,8 +267,13 @@ def _solved(case: Case, read: Mapping[str, Array], shape: tuple[int, ...], wante
         values[mechanism.driver.coordinate] = np.full(1, values[mechanism.driver.coordinate])
     _, program = constructed(mechanism, case.plans)
     known = {step.name: step.verb in POINTS for step in results(program)}
+    parts = {name: name[:-2] for name in wanted if name[-2:] in (".x", ".y") and name[:-2] in known}
+    wanted = tuple(dict.fromkeys(parts.get(name, name) for name in wanted))
     all_known("quantity-unknown", wanted, known)
     found, codes = batch(program, board_givens(mechanism, values, program), wanted or tuple(known))
+    for name, whole in parts.items():  # a component comes with the others; a number has none
+        if not np.iscomplexobj(found[whole]):
+            raise unknown("quantity-unknown", name, known)
     return ManyStates(
         case,
         case.words(),
