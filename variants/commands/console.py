@@ -322,9 +322,9 @@ def usage_error(error: click.UsageError, words: Sequence[str], commands: click.G
         return InputError("cli-missing", text=name, command=command)
     extra = re.search(r"unexpected extra arguments? \((.*)\)", error.message, re.DOTALL)
     if extra:
-        option = "--set" if "=" in extra[1] else "-o" if "." in extra[1] else "-v"  # which many leave out
-        if " " not in extra[1] and any(option in one.opts for one in called.params):
-            return InputError("cli-extra-of", text=quote(extra[1]), option=option)
+        meant = "--set" if "=" in extra[1] else "-o" if "." in extra[1] else "-v"  # which many leave out
+        if " " not in extra[1] and any(meant in one.opts for one in called.params):
+            return InputError("cli-extra-of", text=quote(extra[1]), option=meant)
         return InputError("cli-extra", text=quote(extra[1]), command=command)
     return InputError("cli-usage", text=quote(error.message), command=command)
 
