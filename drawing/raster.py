@@ -116,12 +116,17 @@ class Cells(NamedTuple):
 
     def at(self, x: Reals, y: Reals) -> Flags:
         """Tell which points are in cells with anything."""
-        rows, columns = self.filled.shape
-        column = within(np.floor((x - self.corner.real) / self.side) + 1, 0, columns - 1).astype(int)
-        row = within(np.floor((y - self.corner.imag) / self.side) + 1, 0, rows - 1).astype(int)
-        row *= columns
-        row += column
-        found: Flags = self.filled.ravel().take(row)
+        cell = np.zeros(x.shape, dtype=int)
+        for places, corner, count in zip((y, x), (self.corner.imag, self.corner.real), self.filled.shape, strict=True):
+            place = places - corner
+            place /= self.side
+            np.floor(place, out=place)
+            place += 1.0
+            np.maximum(place, 0.0, out=place)
+            np.minimum(place, count - 1.0, out=place)
+            cell *= count
+            cell += place.astype(int)
+        found: Flags = self.filled.ravel().take(cell)
         return found
 
     def barred(self, starts: Points, heads: Points) -> Flags:
@@ -132,11 +137,16 @@ class Cells(NamedTuple):
         found = np.zeros(len(starts), dtype=bool)
         for every in (4, 1):  # some cells tell of most leaders that they are barred
             left = (~found).nonzero()[0]
-            of, part, _ = _counted((count[left] - 1) // every + 1)
+            if not left.size:
+                break
+            some = (count[left] - 1) // every + 1
+            ends = some.cumsum()
+            part = np.arange(ends[-1]) - np.repeat(ends - some, some)
             part *= every
-            head, on = heads[left], step[left]
-            hit = self.at(head.real[of] + on.real[of] * part, head.imag[of] + on.imag[of] * part)
-            found[left] = np.bincount(of, hit, len(left)) > 0
+            x, y = (np.repeat(of[left], some) for of in (heads.real, heads.imag))
+            x += np.repeat(step.real[left], some) * part
+            y += np.repeat(step.imag[left], some) * part
+            found[left] = np.logical_or.reduceat(self.at(x, y), ends - some)
         return found
 
     def clear(self, leads: Points, most: int) -> Numbers:
