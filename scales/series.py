@@ -73,5 +73,6 @@ def rows_of(columns: Sequence[Floats], between: str, comma: bool) -> Iterator[li
     signs = bytes.maketrans(b".,", f"{',' if comma else '.'}{between}".encode("ascii"))
     for start in range(0, len(columns[0]), PART):
         part = np.column_stack([column[start : start + PART] for column in columns]) + 0.0  # no zero below zero
-        text = orjson.dumps(part, option=orjson.OPT_SERIALIZE_NUMPY)[2:-2].replace(b"null", b"")
-        yield text.replace(b"],[", b"\n").translate(signs).decode("ascii").split("\n")
+        text = orjson.dumps(part, option=orjson.OPT_SERIALIZE_NUMPY)[2:-2].translate(signs)
+        text = text if np.isfinite(part).all() else text.replace(b"null", b"")
+        yield text.decode("ascii").split(f"]{between}[")

@@ -500,7 +500,7 @@ def _texts(column: Sequence[Cell] | Array, comma: bool, between: str) -> list[st
     column = column if isinstance(column, Sequence) else column.tolist()
     kinds = {int} if isinstance(column, range) else {*map(type, column)}
     if kinds == {int}:
-        return [*map(str, column)]
+        return [*map(repr, column)]
     if kinds == {str}:  # statuses
         known = {text: _quoted(_harmless(cast("str", text)), between) for text in {*column}}
         return [*map(known.__getitem__, column)]
