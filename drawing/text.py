@@ -330,18 +330,18 @@ class _Pen:
     def word(self, string: str, x: float, y: float, height: float, face: str) -> _Span:
         """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""
         start, (top, bottom) = x, _NO_INK
-        for other, letters in groupby(string, lambda letter: face if font(face).glyph(letter) else SCREEN):
-            part, size = "".join(letters), height * font(other).size
-            ink = [font(other).ink(letter) for letter in part]
-            width, inner = sum([letter[0] for letter in ink]) * size, part.strip(" ")
+        whole = all(map(font(face).glyph, string))
+        alike = groupby(string, lambda letter: face if font(face).glyph(letter) else SCREEN)
+        for other, part in ((face, string),) if whole else ((other, "".join(own)) for other, own in alike):
+            letters, inner = font(other), part.strip(" ")
+            size, (across, low, high) = height * letters.size, zip(*map(letters.ink, part), strict=True)
             if inner:
                 spaces = len(part) - len(part.lstrip(" "))
-                inked = ink[spaces : spaces + len(inner)]
-                at = x + font(other).ink(" ")[0] * size * spaces
-                self.runs.append(Run(at, y, size, inner, sum([letter[0] for letter in inked]) * size, other))
-                top = max(top, y + max([letter[2] for letter in inked]) * size)
-                bottom = min(bottom, y + min([letter[1] for letter in inked]) * size)
-            x += width
+                inked = slice(spaces, spaces + len(inner))
+                at = x + letters.ink(" ")[0] * size * spaces
+                self.runs.append(Run(at, y, size, inner, sum(across[inked]) * size, other))
+                top, bottom = max(top, y + max(high[inked]) * size), min(bottom, y + min(low[inked]) * size)
+            x += sum(across) * size
         return x - start, top, bottom
 
     def ruled(self, group: Ruling, x: float, y: float, height: float, base: float, leans: bool) -> _Span:
