@@ -104,15 +104,17 @@ class _Font:
             raise InputError("character-missing", character=shown, code=f"U+{ord(character):04X}")
         return glyph
 
+    def _box(self, character: str) -> tuple[int, ...]:
+        """Return the advance of a character, and its left, lowest, right and highest point, in units of the font."""
+        glyph = self.strict_glyph(character)
+        outline, advance = self.outline(glyph), self.metric(glyph)[0]
+        return advance, *(struct.unpack_from(">4h", outline, 2) if outline else (0, 0, advance, 0))
+
     @cache  # noqa: B019
     def ink(self, character: str) -> tuple[float, float, float]:
         """Return advance, lowest and highest point of a character, in units of the font size."""
-        glyph = self.strict_glyph(character)
-        outline, advance = self.outline(glyph), self.metric(glyph)[0] / self.units
-        if not outline:
-            return advance, 0.0, 0.0
-        low, high = struct.unpack_from(">h", outline, 4)[0], struct.unpack_from(">h", outline, 8)[0]
-        return advance, low / self.units, high / self.units
+        advance, _, low, _, high = self._box(character)
+        return advance / self.units, low / self.units, high / self.units
 
     @cache  # noqa: B019
     def beyond(self, character: str) -> tuple[float, float]:
@@ -120,11 +122,7 @@ class _Font:
 
         Where it begins behind its place, or ends before its advance, that is negative.
         """
-        glyph = self.strict_glyph(character)
-        outline, advance = self.outline(glyph), self.metric(glyph)[0]
-        if not outline:
-            return 0.0, 0.0
-        left, right = struct.unpack_from(">h", outline, 2)[0], struct.unpack_from(">h", outline, 6)[0]
+        advance, left, _, right, _ = self._box(character)
         return -left / self.units, (right - advance) / self.units
 
     def outline(self, glyph: int) -> bytes:

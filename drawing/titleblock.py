@@ -6,7 +6,7 @@ Text in a cell is as large as fits, wrapped, shrunk, at last made narrower; of p
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import pi
 from typing import TypeAlias
@@ -104,8 +104,9 @@ FORM_2: Ruling = (  # of the first sheet of a text
     *((x, 15, x, 25, T) for x in (150, 165)),
 )
 CHANGES = (("change", 0, 7), ("row_sheet", 7, 17), ("document_no", 17, 40), ("signature", 40, 55), ("date", 55, 65))
-ROLES = (("drawn", 25), ("checked", 20), ("technical", 15), ("norms", 5), ("approved", 0))
-TEXT_ROLES = (("drawn", 20), ("checked", 15), ("norms", 5), ("approved", 0))
+# heights, mm, at which it stands who has done what
+ROLES = {"drawn": 25.0, "checked": 20.0, "technical": 15.0, "norms": 5.0, "approved": 0.0}
+TEXT_ROLES = {"drawn": 20.0, "checked": 15.0, "norms": 5.0, "approved": 0.0}
 
 
 def words(language: str) -> dict[str, str]:
@@ -124,15 +125,20 @@ def _changes(caption: dict[str, str], y: float) -> list[Text]:
     return [text for cell in cells for text in cell]
 
 
+def _signed(stamp: Stamp, roles: Mapping[str, float]) -> list[Shape]:
+    """Return who has drawn and checked, and when, each role at its height in mm, under the heads of changes."""
+    caption, level = words(stamp.language), roles["drawn"]
+    filled: list[Shape] = [*_changes(caption, level + 5.0)]
+    for key, y in roles.items():
+        filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
+    for key, plain, y in (("student", stamp.student, level), ("teacher", stamp.teacher, roles["checked"])):
+        filled += _named(plain, (17.0, y, 40.0, y + 5.0), CAPTION, "left", key)
+    return [*filled, *_fitted(stamp.date, (55.0, level, 65.0, level + 5.0), CAPTION, name="date_value")]
+
+
 def _form_1(stamp: Stamp) -> list[Shape]:
     """Return form 1, 185 x 55 mm, filled in."""
-    caption = words(stamp.language)
-    filled: list[Shape] = [*_changes(caption, 30.0)]
-    for key, y in ROLES:
-        filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
-    for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
-        filled += _named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
-    filled += _fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
+    caption, filled = words(stamp.language), _signed(stamp, ROLES)
     name_cell = (65.0, 22.0 if stamp.document_type else 15.0, 135.0, 40.0)
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
     for key, plain, cell, heights in (
@@ -167,13 +173,7 @@ def _form_2a(stamp: Stamp) -> list[Shape]:
 
 def _form_2(stamp: Stamp) -> list[Shape]:
     """Return form 2, 185 x 40 mm, for the first sheet of a text; its numbers of sheets are left blank."""
-    caption = words(stamp.language)
-    filled: list[Shape] = [*_changes(caption, 25.0)]
-    for key, y in TEXT_ROLES:
-        filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
-    for key, plain, level in (("student", stamp.student, 20.0), ("teacher", stamp.teacher, 15.0)):
-        filled += _named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
-    filled += _fitted(stamp.date, (55.0, 20.0, 65.0, 25.0), CAPTION, name="date_value")
+    caption, filled = words(stamp.language), _signed(stamp, TEXT_ROLES)
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
     for key, plain, cell, heights in (
         ("designation", stamp.designation, (65.0, 25.0, 185.0, 40.0), (7.0, 5.0, 3.5, 2.5)),

@@ -72,11 +72,7 @@ def _diagrams_view(scene: CamScene) -> View:
         canvas.part(f"law_{shown}" if plan == given else "scales")
         _amplitudes(canvas, scene, plan, field)
     canvas.part("sections")
-    for phase in solved.motion.phases[:3]:  # in degrees under the lowest diagram, clear of the numbers
-        below = field.y.low - field.y.scale.measured(3.5 + scene.style.text)
-        ends, name = (field.at(phase.start, below), field.at(phase.end, below)), f"phi_{phase.name}"
-        text, out = scene.angle(name, phase.length), -2j * scene.style.text
-        linear(canvas, ends, out, text, name, chained=True)
+    _phases(canvas, scene, field, 3.5 + scene.style.text)  # clear of the numbers
     heading = (scene.words["heading.cam_diagrams"], f"{scene.factor(scene.across)}  ({scene.axis})")
     return canvas.finish("diagrams", heading)
 
@@ -95,11 +91,16 @@ def law_view(scene: CamScene, part: float = 1.0) -> View:
         axes(canvas, field, False, PAST * scene.style.label)
         _exact(canvas, scene, plan, field)
         level -= high - up.scale.drawn(low) + BETWEEN[scene.style.label]
-    below = field.y.low - field.y.scale.measured(3.5)
-    for phase in solved.motion.phases[:3]:
-        ends, name = (field.at(phase.start, below), field.at(phase.end, below)), f"phi_{phase.name}"
-        linear(canvas, ends, -2j * scene.style.text, scene.angle(name, phase.length), name, chained=True)
+    _phases(canvas, scene, field, 3.5)
     return canvas.finish("kinematic", (scene.words["heading.cam_law"],))
+
+
+def _phases(canvas: Canvas, scene: CamScene, field: Field, below: float) -> None:
+    """Dimension the phases in degrees, so many mm `below` the lowest diagram."""
+    level = field.y.low - field.y.scale.measured(below)
+    for phase in scene.solved.motion.phases[:3]:
+        ends, name = (field.at(phase.start, level), field.at(phase.end, level)), f"phi_{phase.name}"
+        linear(canvas, ends, -2j * scene.style.text, scene.angle(name, phase.length), name, chained=True)
 
 
 def _nodes(scene: CamScene, plan: str) -> list[int]:

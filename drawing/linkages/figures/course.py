@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import accumulate
 from typing import Any
@@ -23,7 +23,7 @@ from ...shapes import Circle, Pen
 from ...tables import table
 from ...view import Canvas, View
 from ..scene import Scene
-from .cycle import PEAK, SECTIONS, TALL, cut, main_output, output_point
+from .cycle import PEAK, SECTIONS, TALL, cut, main_output, output_point, standing
 from .plan import TOGETHER, headed, told_apart
 
 Array = NDArray[Any]
@@ -42,7 +42,8 @@ GAP = 16.0  # mm between diagrams
 def plans_view(scene: Scene, cycle: Cycle, plan: str) -> View:
     """Draw the plans of a kind of all positions to one scale factor, their poles, numbered as these, on a grid."""
     canvas, usual = scene.canvas(), scene.scales[plan]
-    every = [(number, stand, _reach(stand, plan)) for number, stand in _stands(scene, cycle, plan)]
+    numbered = standing(scene, cycle, cycle.angles.tolist(), plan)
+    every = [(number, stand, _reach(stand, plan)) for number, stand in numbered]
     usual_reach = float(np.median([max(reach) for _, _, reach in every]))
     stands = [item for item in every if max(item[2]) <= PEAK * usual_reach]
     mu, poles = _grid([reach for _, _, reach in stands], scene)
@@ -52,14 +53,6 @@ def plans_view(scene: Scene, cycle: Cycle, plan: str) -> View:
     heading = (scene.words[f"heading.positions_{plan}"].format(n=len(stands)), scene.words.scale(scale))
     left = ", ".join(str(number) for number, _, reach in every if max(reach) > PEAK * usual_reach)
     return canvas.finish(f"{plan}_positions", heading, (scene.words["said.left"].format(numbers=left),) if left else ())
-
-
-def _stands(scene: Scene, cycle: Cycle, plan: str) -> Iterator[tuple[int, Scene]]:
-    """Go through the numbered positions that have this plan."""
-    for number, place in enumerate(cycle.angles.tolist()):
-        solved = cycle.solved(place, plan)
-        if solved.trouble is None:
-            yield number, replace(scene, solved=solved)
 
 
 def _reach(stand: Scene, plan: str) -> Reach:

@@ -58,12 +58,12 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
     canvas = scene.canvas()
     for name, path in _paths(scene, cycle):
         canvas.add(Polyline(path, Pen.AXIS, role="curve", name=name))
-    stands = dict(_stands(scene, cycle, cycle.angles.tolist()))
+    stands = dict(standing(scene, cycle, cycle.angles.tolist()))
     motion = main_output(cycle)
     dead = sorted({spot.angle for spot in motion.dead}) if motion else []
     for number, stand in stands.items():
         lay_down(canvas, stand, Pen.THIN, f"position_{number}")
-    for _, stand in _stands(scene, cycle, dead):
+    for _, stand in standing(scene, cycle, dead):
         lay_down(canvas, stand, Pen.EXTREME, "dead-position")
     for point in _numbered(scene, cycle):
         _number(canvas, scene, stands, point)
@@ -84,10 +84,10 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
     return canvas.finish("positions", heading, tuple(notes))
 
 
-def _stands(scene: Scene, cycle: Cycle, places: Iterable[float]) -> Iterator[tuple[int, Scene]]:
-    """Go through the scenes with the driver at these places, numbered, but those where the mechanism cannot stand."""
+def standing(scene: Scene, cycle: Cycle, places: Iterable[float], plan: str = POSITION) -> Iterator[tuple[int, Scene]]:
+    """Go through the scenes with the driver at these places, numbered, but those where there is no such plan."""
     for number, place in enumerate(places):
-        solved = cycle.solved(place, POSITION)
+        solved = cycle.solved(place, plan)
         if solved.trouble is None:
             # a guide on a moving link is drawn as far as the slider: its run is counted from the calculated position
             yield number, replace(scene, solved=solved, runs={})
