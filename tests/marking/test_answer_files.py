@@ -20,12 +20,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kulman import check, solve
+from kulman.drawing.writers import handed_in
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read, table
 from kulman.tests.support.cases import some
 from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
-from kulman.variants.drawings.marks import handed_in
+from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.reading import _read_answers
 from kulman.variants.serving.safety import read_passwords
 from kulman.variants.spreadsheets.files import read_grid
@@ -58,7 +59,7 @@ def refused(file: Path) -> str:
     [
         ("answers.csv", read_grid),
         ("roster.xlsx", read_grid),
-        ("drawing.dxf", partial(handed_in, largest=1)),
+        ("drawing.dxf", partial(handed_in, largest=1, other="")),
         ("passwords.txt", read_passwords),
         ("rubric.toml", lambda file: check("nau-slider-crank", rubric=file)),
     ],
@@ -356,7 +357,10 @@ def test_what_is_no_file_of_answers_is_refused_in_one_line(
 def test_a_folder_or_nothing_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x.csv").mkdir()
 
-    assert "not a folder" in refused(tmp_path / "x.csv")
+    assert "a file with a table was expected, not a folder" in refused(tmp_path / "x.csv")
+    with pytest.raises(InputError) as no_drawing:
+        read_drawing(tmp_path / "x.csv")
+    assert "a drawing was expected, not a folder" in no_drawing.value.text("en")
     assert "there is no such file" in refused(tmp_path / "y.csv")
 
 

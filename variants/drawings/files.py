@@ -13,10 +13,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
+from ...drawing.writers import handed_in
 from ...plans.marking.lines import Drawn
 from ...scales.errors import InputError
 from .dxf import read_dxf
-from .marks import LARGEST, MOST, FaultError, Marks, handed_in
+from .marks import LARGEST, MOST, FaultError, Marks
 from .pdf import read_pdf
 from .svg import read_svg
 
@@ -34,7 +35,7 @@ def read_drawing(file: str | Path) -> Drawn:
     InputError
         The file cannot be read, is not what its suffix says, has no lines, or more than is allowed.
     """
-    data, shown, suffix = handed_in(file, LARGEST)
+    data, shown, suffix = handed_in(file, LARGEST, "drawing-not-file")
     try:
         if len(data) > LARGEST:
             raise FaultError("drawing-large")

@@ -6,11 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
-
-from ...scales.errors import InputError
-from ...scales.numbers import SHOWN, quote
 
 if TYPE_CHECKING:  # the process that reads a PDF collects, and does no more
     import numpy as np
@@ -31,27 +27,6 @@ WIDE, CAPITAL = 0.6, 0.7  # parts of the size of a font: a letter's width about,
 
 class FaultError(Exception):
     """What keeps a drawing from being read: the key of its message."""
-
-
-def handed_in(file: str | Path, largest: int) -> tuple[bytes, str, str]:
-    """Return what a file holds, one byte more than the `largest` at the most, its name as it is shown, its suffix.
-
-    Raises
-    ------
-    InputError
-        There is no such file, it is none, or it cannot be read.
-    """
-    path = Path(file)
-    shown = quote(path, SHOWN)
-    try:
-        if path.exists() and not path.is_file():
-            raise InputError("drawing-not-file", file=shown)
-        with path.open("rb") as stream:
-            return stream.read(largest + 1), shown, path.suffix.lower()
-    except FileNotFoundError:
-        raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError):
-        raise InputError("file-unreadable", file=shown) from None
 
 
 class Affine(NamedTuple):

@@ -14,9 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from ...drawing.markers import EACH, FEWEST, FREE
+from ...drawing.writers import handed_in
 from ...scales.errors import InputError
 from ..drawings.apart import apart
-from ..drawings.marks import FaultError, handed_in
+from ..drawings.marks import FaultError
 from ..sheets import CODED
 
 PICTURES = (".jpg", ".jpeg", ".png")
@@ -67,7 +68,7 @@ def read_photos(file: str | Path) -> list[Photo]:
     InputError
         The file cannot be read, is too large, is not what its suffix says, or shows no page of a handout.
     """
-    data, shown, suffix = handed_in(file, LARGEST)
+    data, shown, suffix = handed_in(file, LARGEST, "drawing-not-file")
     try:
         if len(data) > LARGEST:
             raise FaultError("photo-large")

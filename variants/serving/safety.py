@@ -20,8 +20,9 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from ...drawing.writers import handed_in
 from ...scales.errors import InputError
-from ...scales.numbers import SHOWN, quote
+from ...scales.numbers import quote
 
 LARGEST_BODY = 50_000_000  # bytes: the forms of a class
 READ_ON = 4 * LARGEST_BODY  # bytes of a body that are let go by before it is refused
@@ -96,13 +97,10 @@ def read_passwords(file: str | Path) -> dict[str, str]:
     InputError
         The file cannot be read, or a line of it is none of these, or a password is short.
     """
-    shown = quote(file, SHOWN)
+    data, shown, _ = handed_in(file, LARGEST_FILE, "file-unreadable")
     try:
-        with Path(file).open("rb") as stream:
-            text = stream.read(LARGEST_FILE).decode("utf-8-sig")
-    except FileNotFoundError:
-        raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError):
+        text = data[:LARGEST_FILE].decode("utf-8-sig")
+    except ValueError:
         raise InputError("file-unreadable", file=shown) from None
     found: dict[str, str] = {}
     for number, line in enumerate(text.splitlines(), 1):

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from ...drawing.writers import handed_in
 from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote
 from . import grid
@@ -51,28 +52,14 @@ Cell = tuple[int, int]  # row and column, counted from 0
 
 def read_grid(file: str | Path) -> grid.Grid:
     """Read a file of answers, or a roster, as a grid; one too large, or not what its suffix says, is refused."""
-    path = Path(file)
-    shown = quote(path, SHOWN)
-    if path.suffix.lower() not in grid.SUFFIXES:
-        raise InputError("answers-suffix", file=shown, known=", ".join(grid.SUFFIXES))
-    try:
-        other = path.exists() and not path.is_file()
-    except (OSError, ValueError):
-        other = False
-    if other:
-        raise InputError("answers-not-file", file=shown)
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(grid.LARGEST + 1)
-    except FileNotFoundError:
-        raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError):
-        raise InputError("file-unreadable", file=shown) from None
+    if Path(file).suffix.lower() not in grid.SUFFIXES:
+        raise InputError("answers-suffix", file=quote(file, SHOWN), known=", ".join(grid.SUFFIXES))
+    data, shown, suffix = handed_in(file, grid.LARGEST, "answers-not-file")
     if len(data) > grid.LARGEST:
         raise InputError("answers-large", file=shown, n=grid.LARGEST // 1_000_000)
     if not data.strip():
         raise InputError("answers-empty", file=shown)
-    return (_grid_of_xlsx if path.suffix.lower() == ".xlsx" else _grid_of_csv)(str(path), data)
+    return (_grid_of_xlsx if suffix == ".xlsx" else _grid_of_csv)(str(Path(file)), data)
 
 
 def _grid_of_csv(file: str, data: bytes) -> grid.Grid:
