@@ -140,6 +140,11 @@ def text_faults(view: View) -> Iterator[Finding]:
     for thing, name in _things(view):
         for i in tree.query(thing, predicate="intersects").tolist():
             yield fault(i, name)
+    if corners := [(p.real, p.imag) for stroke in view.lines("inset") for p in stroke.points]:
+        frame = shapely.MultiPoint(corners).envelope
+        for i, text in enumerate(texts):
+            if text.role == "label" and not frame.contains_properly(areas[i]):
+                yield fault(i, "the frame of a detail, or outside of it")
 
 
 def _finding(kind: str, view: View, said: str, at: complex) -> Finding:

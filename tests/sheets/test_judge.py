@@ -64,6 +64,11 @@ PLANTED = {
     "a letter on a main line": ('x="80" y="78">V', 'x="80" y="81">V', {"overlaps": 1}),
     "a letter on a thin line": ('x="55" y="78">p', 'x="55" y="21">p', {"struck": 1}),
     "a letter on the frame": ('x="150" y="56">A', 'x="203" y="56">A', {"overlaps": 2}),
+    "a letter beyond the frame of a detail": (
+        '<line class="construction" x1="30" y1="20" x2="190" y2="20"',
+        '<polygon class="inset" points="30,20 190,20 190,110 30,110" fill="none" stroke="#000"',
+        {"overlaps": 1},
+    ),
     "a view in the block": ('x1="30" y1="230"', 'x1="30" y1="250"', {"overlaps": 1}),
     "the letter of another node": ('x="55" y="78">p', 'x="146" y="56">p', {"nodes": 1}),
     "the letter of another vector": ('x="80" y="78">V', 'x="80" y="98">V', {"vectors": 1}),

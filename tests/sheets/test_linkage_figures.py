@@ -560,14 +560,34 @@ def test_letter_beside_the_numeral_of_an_inset_does_not_read_as_its_index() -> N
     assert letter[0] - right > 3.0
 
 
-@pytest.mark.soak
-def test_letters_of_an_inset_stand_in_its_frame() -> None:
-    insets = [i for view in Linkage("scheme-12-shaking-conveyor", "1", format="A1").sheet.views for i in view.insets]
+# lines of large forces close together in an inset; one of letters far from its point; notes in the place of letters
+@pytest.mark.parametrize(
+    ("task", "variant", "format"),
+    some(
+        [
+            ("scheme-14-jaw-crusher", "3", "A3"),
+            ("scheme-12-shaking-conveyor", "1", "A1"),
+            ("scheme-14-jaw-crusher", "7", "A1"),
+            ("scheme-15-lever-shears", "3", "A1"),
+            ("scheme-20-press-automaton", "0", "A1"),
+        ],
+        1,
+    ),
+)
+def test_letters_of_an_inset_stand_in_its_frame_and_notes_have_its_millimetres(
+    task: str, variant: str, format: str
+) -> None:
+    case = Linkage(task, variant, format=format)
+    insets = [inset for view in case.sheet.views for inset in view.insets]
 
-    assert len(insets) > 1
+    assert insets
     for inset in insets:
-        (frame,) = (shapely.Polygon([(p.real, p.imag) for p in s.points]) for s in inset.lines("inset"))
+        ends = [(p.real, p.imag) for stroke in inset.lines("inset") for p in stroke.points]
+        frame = shapely.MultiPoint(ends).envelope
         assert not [text.string for text in inset.of("label") if not frame.covers(text.area)], inset.name
+        lengths = {round(abs(vector.span), 2) for vector in inset.vectors}
+        for said in (said for text in inset.of("heading") if text.name == "note" for said in text.string.split(";")):
+            assert {*numbers_of(said.partition("= ")[2].partition("= ")[2], case.lang)} <= lengths, said
 
 
 @pytest.mark.parametrize("task", some(["scheme-14-jaw-crusher", "scheme-12-shaking-conveyor"], 1))

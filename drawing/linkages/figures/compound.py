@@ -88,7 +88,7 @@ class At(Plan):
 
     def windows(self) -> list[Window]:
         """Return what the inset shows: as many short vectors as one of them, enlarged to be read, has beside it."""
-        arrow, windows = self.scene.style.arrow, list[Window]()
+        arrow, widest, windows = self.scene.style.arrow, plans.WIDEST * self.scene.style.label, list[Window]()
         vectors = sorted((v for v in self.vectors() if length_of(v) > 1e-6), key=length_of)
         for short in (v for v in vectors if length_of(v) < SHORT * arrow):
             if any(window.shows(short.tail, short.tip) for window in windows):
@@ -97,7 +97,7 @@ class At(Plan):
             ends = {short.tail, short.tip}
             for other in vectors:
                 wider = ends | {other.tail, other.tip}
-                if plans.hangs(other, ends) and max(plans.size_of(wider)) * times <= plans.WIDEST:
+                if plans.hangs(other, ends) and max(plans.size_of(wider)) * times <= widest:
                     ends = wider
             windows.append(Window.about(ends, times, NARROWEST))
         small = [v for v in vectors if length_of(v) < SHORT * arrow]

@@ -27,7 +27,7 @@ from .links import NEAR, Stroke
 
 READABLE = 1.4  # arrowheads: the least length of a vector in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
-WIDEST, NARROWEST = 85.0, 45.0  # mm, the largest side of what an inset shows, the least side of an inset of forces
+WIDEST, NARROWEST = 26.0, 45.0  # the largest side of what an inset shows, in heights of its letters; mm, the least
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
 OFF = 1.0  # mm between its letters and its frame
 NARROW, WIDER = 4.0, 12.0  # mm by which its frame stands farther out where they leave it, at least and at most
@@ -144,7 +144,7 @@ class Plan:
             return []
         best, most, clusters = list[Window](), (0, 0), _clusters(short)
         for times, first in product(self._times, clusters):
-            shown = _together(first, clusters, WIDEST / times)
+            shown = _together(first, clusters, WIDEST * self.scene.style.label / times)
             arrows = [length_of(vector) * times / self.scene.style.arrow for vector in shown]
             read = sum(size >= 1.0 for size in arrows), sum(size >= READABLE for size in arrows)
             if read > most:
@@ -256,14 +256,17 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
 
 
 def _roomy(plan: Plan, window: Window, figure: str, numeral: str) -> tuple[View, Window]:
-    """Return an inset and what it shows: more, above all where its letters leave its frame, if fewer leave it then."""
-    view = _inset(plan, window, figure, numeral)
-    if not (out := _outside(view, window)):
-        return view, window
-    x0, y0, x1, y1 = (min(WIDER, max(NARROW, *by)) for by in zip(*out, strict=True))
-    wider = window.grown((x0, y0, x1, y1))
-    again = _inset(plan, wider, figure, numeral)
-    return (again, wider) if len(_outside(again, wider)) < len(out) else (view, window)
+    """Return an inset and what it shows: more, above all where its letters leave its frame, if fewer leave it then.
+
+    Where that does not help some letters are told in its notes.
+    """
+    tries = [(_inset(plan, window, figure, numeral), window)]
+    for told in (False, True):
+        if out := _outside(*tries[-1]):
+            x0, y0, x1, y1 = (min(WIDER, max(NARROW, *by)) for by in zip(*out, strict=True))
+            wider = window.grown((x0, y0, x1, y1))
+            tries.append((_inset(plan, wider, figure, numeral, told), wider))
+    return min(tries, key=lambda shown: len(_outside(*shown)))
 
 
 def _outside(view: View, window: Window) -> list[Box]:
@@ -274,12 +277,17 @@ def _outside(view: View, window: Window) -> list[Box]:
     return [by for by in past if max(by) > NEAR]
 
 
-def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
-    """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
+def _inset(plan: Plan, window: Window, figure: str, numeral: str, told: bool = False) -> View:
+    """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off.
+
+    Letters without room beside their vectors are rather `told` in its notes than led far away.
+    """
     name = f"{figure}_{numeral}"
     scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
     bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
-    canvas, scale = Canvas(scene.style, bounds=bounds), scene.scales[plan.plan]
+    lean = 2 * OFF  # of letters, as they stand in no box of theirs
+    room = bounds[0] + lean, bounds[1] + lean, bounds[2] - lean, bounds[3] - lean
+    canvas, scale = Canvas(scene.style, bounds=room), scene.scales[plan.plan]
     own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
     for i, (tail, point, end, text) in enumerate(plan.lines()):
         cut, past = (clipped(start * times, end * times, bounds) for start in (tail, point))
@@ -297,7 +305,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
         cut = clipped(tail, tip, bounds)
         if cut is None or abs(cut[1] - cut[0]) < 1e-6:
             continue
-        if abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6:  # the whole of it
+        if whole := abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6:
             canvas.add(headed(replace(vector, tail=tail, tip=tip, mu=own.mu), scene.style.arrow))
         else:
             parts: list[Shape] = [Line(*cut)]
@@ -305,8 +313,9 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
             canvas.add(Group(tuple(parts), "cut", vector.quantity))
         if names:
             spare = said.get((vector.tail, vector.tip), "")
-            bare = f"{spare} = {scene.length(length_of(vector))}" if spare else ""
-            canvas.label(" = ".join(names), cut, clear=0.9, strict=True, last=spare, bare=bare)
+            bare = f"{spare} = {scene.length(length_of(vector) * times)}" if spare else ""
+            soon = ELSEWHERE if not whole else spare if told else ""  # what is cut off has its letter on the plan
+            canvas.label(" = ".join(names), cut, clear=0.9, strict=True, spare=soon, last=spare, bare=bare)
     places = {mark: place * times for mark, place in plan.marks().items()}
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
     marks, poles = {mark: scene.words.mark(mark) for mark in seen}, [p for p in plan.poles() if p in seen]
