@@ -203,7 +203,8 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     canvas.part("axes")
     for end in (feet[0], feet[-1]):
         canvas.add(revolute(end, plan, scene.style))
-    canvas.label(words["hoist.beam_0" if i == 0 else "hoist.beam_2"], feet[0], prefer=-1.0 + 0j, clear=2.0)
+    clear = scene.style.pair + 1.5
+    canvas.small(words["hoist.beam_0" if i == 0 else "hoist.beam_2"], feet[0], prefer=-1.0 + 0j, clear=clear)
     places = [("M", "fM", f"w_{i}_max")]
     if abs(scene.mm(f"{plan}.A") - scene.mm(f"{plan}.M")) > SAME:  # in the middle of the beam they are one
         places.insert(0, ("A", "fA", f"w_{i}"))

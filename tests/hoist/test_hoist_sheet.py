@@ -27,6 +27,15 @@ def first() -> Sheet:
     return read(sheet("karpenko-hoist", "V01").svg())
 
 
+def test_beams_are_named_beside_their_ends() -> None:
+    view = first()["beams"]
+    circles = shapely.union_all([shapely.Point(r.centre.real, r.centre.imag).buffer(r.radius) for r in view.rings])
+
+    names = [text for text in view.of("label") if text.string.startswith("балка")]
+    assert [text.string[-1] for text in names] == ["0", "2"]
+    assert all(text.area.distance(circles) > 1.0 for text in names)  # as digits they read as one number with these
+
+
 @pytest.mark.parametrize("plan", [LIFT_OFF, EXTREMES, FORCES])
 def test_numbers_of_an_axis_have_as_many_decimals_as_one_another(plan: str) -> None:
     texts = first()[plan].of("number")
