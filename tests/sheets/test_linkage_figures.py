@@ -590,6 +590,14 @@ def test_letters_of_an_inset_stand_in_its_frame_and_notes_have_its_millimetres(
             assert {*numbers_of(said.partition("= ")[2].partition("= ")[2], case.lang)} <= lengths, said
 
 
+def test_forces_too_short_to_be_drawn_are_told_in_one_note() -> None:
+    view = Linkage("scheme-20-press-automaton", "0", format="A1").sheet["forces_2345"]
+
+    said = sorted((text for text in view.of("heading") if "точкою" in text.string), key=lambda text: -text.box[1])
+    assert len(said) > 1
+    assert all(text.string.count("(") == 4 for text in said[:-1])
+
+
 @pytest.mark.parametrize("task", some(["scheme-14-jaw-crusher", "scheme-12-shaking-conveyor"], 1))
 def test_forces_end_at_the_circles_of_hinges(task: str) -> None:
     sheet = Linkage(task, "1", format="A1").sheet

@@ -20,7 +20,7 @@ from ...areas import clipped
 from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from ...text import Box
-from ...view import ELSEWHERE, Canvas, View, write_above
+from ...view import EACH, ELSEWHERE, Canvas, View, write_above
 from ..reading import Edge
 from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
@@ -395,10 +395,12 @@ def plan_view(scene: Scene, plan: str) -> View:
     letter_marks(canvas, scene, {m: words.mark(m) for m in marks}, places, poles, said)
     notes = [*said_flat(scene, plan)]
     read = {quantity for window in shown for quantity in forces.read_in(window)}
-    for vector in map(scene.vector, dict.fromkeys(vectors)):
-        if (length := length_of(vector)) < SHORT and vector.quantity not in read:
-            short = words["said.zero" if length < 1e-6 else "said.short"]
-            notes.append(short.format(vector=scene.letter(vector.quantity), mm=words.number(length, 2)))
+    short = [v for v in map(scene.vector, dict.fromkeys(vectors)) if length_of(v) < SHORT and v.quantity not in read]
+    lengths = {scene.letter(vector.quantity): length_of(vector) for vector in short}
+    notes += [words["said.zero"].format(vector=letter) for letter, length in lengths.items() if length < 1e-6]
+    said_short = [f"{letter} ({words.number(mm, 2)})" for letter, mm in lengths.items() if mm >= 1e-6]
+    for i in range(0, len(said_short), EACH):
+        notes.append(words["said.short"].format(vectors=", ".join(said_short[i : i + EACH])))
     kin = [p for p in scene.solved.program.plans if role(p).kind == FORCES]  # a sheet has each numeral once
     numeral = NUMERALS[_details(Plan(scene, other) for other in kin[: kin.index(plan)])] if shown else ""
     for window in shown:
