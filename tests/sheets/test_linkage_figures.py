@@ -598,6 +598,26 @@ def test_forces_too_short_to_be_drawn_are_told_in_one_note() -> None:
     assert all(text.string.count("(") == 4 for text in said[:-1])
 
 
+@pytest.mark.parametrize("variant", some(["0", "3"], 1))
+def test_arms_beside_one_another_are_told_apart(variant: str) -> None:
+    case = Linkage("scheme-20-press-automaton", variant, format="A1")
+    view = case.sheet["group_2345"]
+    lines = [s for s in view.inside("arm") if s.role == "thin" and abs(s.points[-1] - s.points[0]) > STYLE.arrow]
+
+    close = 0
+    for one, other in combinations(lines, 2):
+        if abs(cmath.phase(((a := _way(one)) / _way(other)) ** 2)) < math.radians(6.0):
+            ends = sorted(((p - one.points[0]) / a).real for p in other.points)
+            if min(1.0, ends[-1]) - max(0.0, ends[0]) > 0.0:
+                close += 1
+                assert _drawn(one).distance(_drawn(other)) > 3.5, (one.path, other.path)
+    assert close
+
+
+def _way(line: Stroke) -> complex:
+    return line.points[-1] - line.points[0]
+
+
 @pytest.mark.parametrize("task", some(["scheme-14-jaw-crusher", "scheme-12-shaking-conveyor"], 1))
 def test_forces_end_at_the_circles_of_hinges(task: str) -> None:
     sheet = Linkage(task, "1", format="A1").sheet

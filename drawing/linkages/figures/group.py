@@ -39,6 +39,7 @@ REACH = 0.345  # lengths of an arrow: from a point farther within a block it beg
 # heights of a letter around the outer part of an arrow that are enough, and that are no better; what it costs that an
 # arrow pushes, that it stands beside its line, and there towards the middle of the figure, or far
 CLEAR, WIDE, PUSHED, ASIDE, INWARD = 0.56, 0.8, 0.08, 0.42, 0.1
+ALONGSIDE = math.sin(math.radians(6.0))  # arms that make a smaller angle are parallel to the eye
 CLOSE = math.cos(math.radians(12.0))  # arms that make a smaller angle run into one another, or into a line there
 STEP, TRIES = 2.4, 6  # heights of an arm's letters between arms that are staggered; how often one is moved
 TURNING = 2.0  # rad, the arrow of a couple
@@ -154,6 +155,7 @@ class Sketch:
     _led: list[Stroke] = field(default_factory=list)  # ends of lines that lead to arrows beside theirs
     _barred: dict[complex, list[complex]] = field(default_factory=dict)
     _turning: list[Stroke] = field(default_factory=list)  # arrows of couples, as chords
+    _arms: list[Stroke] = field(default_factory=list)
 
     def bar(self, at: complex, directions: Iterable[complex]) -> None:
         """Let no arrow leave a place in these directions."""
@@ -167,7 +169,7 @@ class Sketch:
             if abs(arm.foot - pole) < LEAST:
                 continue
             step = outward(arm, pole, middle) * STEP * style.text
-            others = [(pole + by, arms[k].foot + by) for k, by in shifts.items() if k != i]
+            others = [*self._arms, *((pole + by, arms[k].foot + by) for k, by in shifts.items() if k != i)]
             tries = (shifts.get(i, 0j) + k * step for k in range(TRIES))
             shifts[i] = next(
                 (by for by in tries if not self._upon(pole + by, arm.foot + by, others)), shifts.get(i, 0j)
@@ -175,10 +177,14 @@ class Sketch:
         return {i: by for i, by in shifts.items() if by}
 
     def _upon(self, a: complex, b: complex, arms: Sequence[Stroke]) -> bool:
-        """Whether a line runs along a force or one of these arms."""
-        letter, things = self.scene.style.label, _as_lines([*self._lying, *arms])
-        along = shapely.intersection(shapely.buffer(things, 0.25 * letter), lines([a], [b])[0])
-        return bool((shapely.length(along) > 0.9 * letter).any())
+        """Whether a line runs along a force or one of these arms, or close beside one of them."""
+        letter, way = self.scene.style.label, unit(b - a)
+        beside = [(c, d) for c, d in arms if abs(cross(way, unit(d - c))) < ALONGSIDE]
+        for strokes, apart in (([*self._lying, *arms], 0.25), (beside, BESIDE)):
+            along = shapely.intersection(shapely.buffer(_as_lines(strokes), apart * letter), lines([a], [b])[0])
+            if (shapely.length(along) > 0.9 * letter).any():
+                return True
+        return False
 
     def hang(self, name: str, at: complex, said: str = "") -> None:
         """Draw the arrow of a force at a point, or beyond what stands there, and letter it; once.
@@ -358,6 +364,8 @@ class Sketch:
             shifts = self.shifts(about, own, sum(nodes) / len(nodes), OF_FOOT if _place(about) in self._barred else 1)
             for i, arm in enumerate(own):
                 arm.draw(self.canvas, self.scene, about, shifts.get(i, 0j), self.alone)
+                if abs(arm.foot - about) >= LEAST:
+                    self._arms.append((about + shifts.get(i, 0j), arm.foot + shifts.get(i, 0j)))
 
     def letter_others(self, points: Iterable[str]) -> None:
         """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
