@@ -381,6 +381,19 @@ def test_markers_of_a_large_picture_are_found_on_a_smaller_one_and_put_right(mon
     assert max(np.abs(coarse[number] - own[number]).max() for number in own) < 0.3
 
 
+def test_what_only_looks_like_a_small_marker_is_none() -> None:
+    page = printed(sheet_for(TASK, only=PLANS), 1).copy()
+    own = dict(zip(*pictures._markers(page)[::-1], strict=True))
+    again, times = EACH + 1, 5  # pixels of a field: a marker of the page has 24
+    small = np.kron(np.where(np.pad(fields(again), 1), 0, 255).astype(np.uint8), np.ones((times, times), np.uint8))
+    page[1500 : 1500 + len(small), 900 : 900 + len(small)] = small
+
+    found = pictures._markers(page)[1]
+
+    assert again in own
+    assert sorted(found) == sorted(own)
+
+
 def of_16_bits(page: Image.Image) -> Image.Image:
     return Image.fromarray(np.asarray(page).astype(np.uint16) * 257)
 

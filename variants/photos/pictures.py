@@ -29,6 +29,7 @@ DOTS = 150.0, 300.0  # per inch at which pages of a PDF are looked at: for marke
 LOOKED = 16_000_000  # pixels in which markers are looked for; on larger pictures their corners are then put right
 QUALITY = 98  # of the JPEG of a page
 CORNER = 5  # pixels round a corner that tell where it is
+TINY = 0.4  # of the middle size of markers on a picture: what is smaller is a letter or a figure that looks like one
 LEAST = 200  # pixels of a side of a picture
 AROUND = 0.6  # of what markers span, kept round them: they may stand away from the edge
 INCH = 72.0
@@ -209,7 +210,9 @@ def _markers(grey: Any) -> tuple[list[Any], list[int]]:
         near, until = (CORNER * times,) * 2, (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 30, 0.05)
         large: list[Any] = [((own + 0.5) * times - 0.5).astype(np.float32) for own in found]
         found = [cv2.cornerSubPix(grey, own, near, (-1, -1), until) for own in large]
-    return found, [] if numbers is None else numbers.ravel().tolist()
+    sizes = [cv2.arcLength(own, True) for own in found]
+    real = [at for at, size in enumerate(sizes) if size >= TINY * np.median(sizes)]
+    return [found[at] for at in real], [numbers.ravel().tolist()[at] for at in real]
 
 
 def _sheets(grey: Any) -> Iterator[Found | str | None]:
