@@ -323,6 +323,10 @@ ARGUMENTS = {
     "unknown language": (["solve", TASK, "--lang", "de"], "--lang: 'de'"),
     "unknown notation": (["solve", TASK, "--notation", "zzz"], "unknown notation 'zzz'"),
     "scale by a segment of no plan": (["solve", TASK, "--scale", "pz=80"], "pz: 'pz' is not a segment"),
+    "scale of a figure drawn larger": (
+        ["solve", TASK, "-v", "3", "--scale", "mu_l_1=0.001"],
+        "mu_l_1 is that of a figure that is drawn larger, and follows from the others; chosen may be: mu_l, mu_V",
+    ),
     "scale twice": (["solve", TASK, "--scale", "pa=80", "--scale", "pa=70"], "twice"),
     "unknown format": (["sheet", TASK, "-o", "x.svg", "--format", "A9"], "--format: 'A9'"),
     "unknown norm": (["sheet", TASK, "-o", "x.svg", "--norm", "din"], "--norm: 'din'"),
