@@ -267,7 +267,8 @@ def _solved(case: Case, read: Mapping[str, Array], shape: tuple[int, ...], wante
         values[mechanism.driver.coordinate] = np.full(1, values[mechanism.driver.coordinate])
     _, program = constructed(mechanism, case.plans)
     known = {step.name: step.verb in POINTS for step in results(program)}
-    parts = {name: name[:-2] for name in wanted if name[-2:] in (".x", ".y") and name[:-2] in known}
+    parts = {f"{name}.{axis}": name for name in known for axis in "xy"}
+    parts = {name: parts[name] for name in wanted if name in parts}
     wanted = tuple(dict.fromkeys(parts.get(name, name) for name in wanted))
     all_known("quantity-unknown", wanted, known)
     found, codes = batch(program, board_givens(mechanism, values, program), wanted or tuple(known))
