@@ -24,6 +24,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from ..drawing.writers import refused, write_whole
 from ..scales.errors import InputError
+from ..scales.kept import collect_seldom
 from ..scales.numbers import SHOWN, quote
 
 Item = TypeVar("Item")
@@ -155,6 +156,7 @@ def without_script() -> Iterator[None]:
 
 def _begin(begin: Begin[Any, Any], over: Any) -> None:
     """Begin a process, which ends with the one that has started it, even if that is killed."""
+    collect_seldom()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the other end is told, and stops this one
     _HERE.update(begin=begin, over=over)
     Thread(target=_end_with, args=(multiprocessing.parent_process(), over), daemon=True).start()

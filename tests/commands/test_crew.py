@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import logging
 import multiprocessing
@@ -21,6 +22,7 @@ import pytest
 
 from kulman import batch
 from kulman.scales.errors import InputError
+from kulman.scales.kept import COLLECTED
 from kulman.tests.support.cases import some
 from kulman.tests.support.commands import files, roster
 from kulman.variants.crew import on_cluster, shared_out
@@ -60,6 +62,16 @@ def made(work: Squares, jobs: int, **more: int) -> dict[int, int | None]:
 @pytest.mark.parametrize("jobs", some([-3, 0, 1, 2, 1000], 1, 2, 3))
 def test_any_number_of_processes_makes_everything(jobs: int) -> None:
     assert made(Squares(), jobs, alone=0) == made(Squares(), min(jobs, 2)) == SQUARES
+
+
+def threshold() -> Callable[[int], int]:
+    return lambda item: gc.get_threshold()[0]
+
+
+def test_processes_look_for_garbage_seldom_also_where_they_are_no_copies_of_one_that_does() -> None:
+    found = {one for piece in shared_out(threshold, [1, 2], 1, str, alone=0, afresh=True) for _, one in piece}
+
+    assert found == {COLLECTED}
 
 
 def test_an_item_that_kills_its_process_is_found_out() -> None:

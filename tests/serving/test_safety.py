@@ -14,7 +14,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from kulman.scales.errors import InputError
-from kulman.tests.support.jobs import dies, dies_once, fails, sleeps, takes
+from kulman.scales.kept import COLLECTED
+from kulman.tests.support.jobs import dies, dies_once, fails, leaves, sleeps, takes
 from kulman.tests.support.serving import asked
 from kulman.variants.serving import jobs
 from kulman.variants.serving.desk import Desk
@@ -154,6 +155,16 @@ def test_a_process_is_bounded_and_mended(tmp_path: Path) -> None:
         if os.name == "posix":
             with pytest.raises(InputError, match="memory"):
                 seat.do(takes, (4_000_000_000,), 60.0, print)
+    finally:
+        seat.stop()
+
+
+def test_a_process_looks_for_garbage_between_two_jobs_not_while_it_is_at_one(tmp_path: Path) -> None:
+    seat = Seat(tmp_path / "seat")
+    try:
+        assert seat.do(leaves, (str(tmp_path / "gone"),), 60.0, print) == COLLECTED
+        seat.do(sleeps, (0.0,), 60.0, lambda *said: None)
+        assert (tmp_path / "gone").exists()
     finally:
         seat.stop()
 

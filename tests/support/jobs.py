@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import time
 from pathlib import Path
 from typing import Any
+
+
+class Circle:
+    """What only a look for garbage removes; it is told in a file."""
+
+    def __init__(self, gone: str) -> None:
+        self.own, self.gone = self, gone
+
+    def __del__(self) -> None:
+        Path(self.gone).touch()
+
+
+def leaves(advance: Any, gone: str) -> int:
+    Circle(gone)
+    return gc.get_threshold()[0]
 
 
 def sleeps(advance: Any, seconds: float) -> str:

@@ -7,6 +7,7 @@ removes what they left.
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import shutil
@@ -27,6 +28,7 @@ from threading import Lock, Thread
 from typing import IO, Any, Generic, TypeVar
 
 from ...scales.errors import InputError, KulmanError
+from ...scales.kept import collect_seldom
 from ..crew import Advance, without_script
 
 MEMORY = 2_000_000_000  # bytes of data that a process may have
@@ -173,6 +175,7 @@ def _work(pipe: Connection, folder: str, memory: int) -> None:
     assert parent is not None
     Thread(target=_end_with, args=(parent, Path(folder).parent), daemon=True).start()
     _bound(memory)
+    collect_seldom()
     with suppress(OSError):  # the server may have ended meanwhile, and its folder with it
         os.chdir(folder)
     sent = partial(_send, pipe)
@@ -182,6 +185,7 @@ def _work(pipe: Connection, folder: str, memory: int) -> None:
         except (EOFError, OSError):
             break
         sent(*_outcome(make, args, sent))
+        gc.collect(0)  # what a job leaves behind is young, and may be large: nobody waits for it
         with suppress(OSError):
             for left in Path(folder).iterdir():
                 shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
