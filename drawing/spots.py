@@ -33,7 +33,7 @@ SURELY = 0.3  # mm by which it must be nearer than to another node
 PLAINLY = 0.7  # mm by which it must beside a segment be nearer than to another segment: letters that lean fill no box
 WIDE = 3.0  # mm: a larger circle stands for no node
 EVEN = 1e-6  # mm by which it may be further from it than from another one in the same place
-NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
+NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for; beside a segment the second is best
 FAR = np.array([5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0])  # mm, how long leaders are
 AFIELD = np.array([35.0, 42.0, 50.0, 60.0, 75.0])  # mm, how long where there is no place nearer
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
@@ -67,12 +67,12 @@ class Obstacles:
 class Request:
     """A label of `width` x `height` mm that belongs to a node (a point) or stands beside a segment.
 
-    `clear` is the distance wanted between the box and its anchor, `prefer` the side where it should stand;
-    where two labels want the same place, the one with the higher `priority` chooses first. A `strict` label, such as
-    that of a dimension, stands rather on a leader than nearer to something else. One that may go `afield` takes a long
-    leader where it has no place nearer, through whatever is drawn where it must. One that may run `along` its segment
-    is turned with it before it is set apart. An `optional` one runs along it rather than not, gives way to all others,
-    and is left out where there is no room.
+    `clear` is the least distance between the box and its anchor, from a segment a little more where there is room,
+    `prefer` the side where it should stand; where two labels want the same place, the one with the higher `priority`
+    chooses first. A `strict` label, such as that of a dimension, stands rather on a leader than nearer to something
+    else. One that may go `afield` takes a long leader where it has no place nearer, through whatever is drawn where it
+    must. One that may run `along` its segment is turned with it before it is set apart. An `optional` one runs along it
+    rather than not, gives way to all others, and is left out where there is no room.
     """
 
     name: str
@@ -137,6 +137,7 @@ class Wanted(NamedTuple):
             # Without a wish: to the right and up, where a hand writes first.
             wish = np.where(self.prefer[i] == 0, 0.3 * HEADING[2], self.prefer[i])
             taste[i] = TURN * (abs(wish)[:, None] - (np.conj(wish)[:, None] * HEADING).real)
+        far = np.broadcast_to(steps, (len(self.a), 1, len(steps))).copy()
         i = (~is_node).nonzero()[0]
         if i.size:
             along = self.b[i] - self.a[i]
@@ -148,9 +149,10 @@ class Wanted(NamedTuple):
             wish = np.where(self.prefer[i] == 0, 0.1 * (0.3 + 1j), self.prefer[i])
             turn = TURN * (abs(wish)[:, None] - (np.conj(wish)[:, None] * normal).real)
             taste[i] = (SLIDE * abs(ALONG - 0.5)[:, None] + turn[:, None]).reshape(i.size, 16)
+            far[i] = abs(steps - NEAR[1])
         shape = (len(self.a), 16 * len(steps))
         own = np.broadcast_to(away[:, None], centre.shape).reshape(shape)
-        return centre.reshape(shape), own, (taste[:, :, None] + STEP * steps).reshape(shape)
+        return centre.reshape(shape), own, (taste[:, :, None] + STEP * far).reshape(shape)
 
     def leads(self, i: int, lengths: Reals, ways: Points = STEEP) -> tuple[Points, Reals]:
         """Return leaders of label i, shape (4, K), and what each costs for its own sake.
@@ -195,7 +197,7 @@ class Wanted(NamedTuple):
         e = -e if (e / FROM_RIGHT).imag > SLACK else e
         sides, steps = np.array([1j, -1j]) * e, np.array(NEAR[:3])
         wish = self.prefer[i] if self.prefer[i] != 0 else 0.1j * e
-        cost = SLIDE * abs(ALONG - 0.5)[:, None, None] + STEP * steps
+        cost = SLIDE * abs(ALONG - 0.5)[:, None, None] + STEP * abs(steps - NEAR[1])
         cost = cost + TURN * (1.0 - (np.conj(wish) * sides).real)[:, None]
         out = sides[:, None] * (self.hh[i] + self.clear[i] + steps)
         at = (self.a[i] + along * ALONG)[:, None, None] + out
