@@ -535,21 +535,22 @@ def test_a_force_that_is_read_in_a_detail_is_judged_by_its_scale_factor(
 @pytest.mark.parametrize(
     "row",
     [
-        pytest.param("h_21;39.5;;", id="on the plan"),
-        pytest.param("h_21;79;;", id="on the figure of the driver"),
+        pytest.param("mu_l;;;0.001\nh_21;39.5;;", id="on the plan"),
+        pytest.param("mu_l;;;0.001\nh_21;79;;", id="on the figure of the driver"),
         pytest.param("h_21;79;;0.0395", id="on the figure of the driver, with its value"),
-        pytest.param("mu_l_1;;;0.0005\nh_21;79;;", id="with the scale factor of the figure"),
+        pytest.param("h_21;79;;0.0395\nmu_l;;;0.002", id="on that of the sheet, the plan at another scale factor"),
+        pytest.param("mu_l;;;0.001\nmu_l_1;;;0.0005\nh_21;79;;", id="with the scale factor of the figure"),
     ],
 )
 def test_an_arm_of_the_driver_is_judged_by_the_drawing_on_which_it_was_measured(tmp_path: Path, row: str) -> None:
-    (file := tmp_path / "answers.csv").write_text(f"quantity;mm;mu;value\nmu_l;;;0.001\n{row}\n", encoding="utf-8")
+    (file := tmp_path / "answers.csv").write_text(f"quantity;mm;mu;value\n{row}\n", encoding="utf-8")
     asked = check(TASK, "3", lang="en")
 
     report = asked.mark(asked.read(str(file))[0])
 
     (told,) = [row for _, rows in report.parts for row in rows if row.line.name == "h_21"]
     assert str(told.line.verdict) == "right"
-    assert told.answer.startswith(row.partition("h_21;")[2].partition(";")[0])  # as it was written
+    assert told.answer.endswith("0.0395 m") or told.answer == f"{row.partition('h_21;')[2].partition(';')[0]} mm"
 
 
 @pytest.mark.parametrize("language", ["uk", "ru", "en"])

@@ -391,8 +391,8 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
             symbol, own = key.scale_of(line.name, answers.scales), line.factor
             written = own or answers.scales.get(symbol)
             mu = None if written is None else fits.get(symbol, written.value) if own is None else own.value
-            times = _times(line, symbol, answers, key)
-            elsewhere = own is None and times == 1.0 and _on_other_drawing(line, symbol, answers, key)
+            elsewhere = own is None and _on_other_drawing(line, symbol, answers, key)
+            times = 1.0 if elsewhere else _times(line, symbol, answers, key)
             mm = None if elsewhere or line.mm is None else line.mm / times
             given.append(replace(line, mm=mm, mu=mu if own is None or mu is None else mu * times))
         else:
