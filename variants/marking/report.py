@@ -285,9 +285,9 @@ class Report(Saved):
         if answer is None or answer.empty:
             return "–"
         parts = []
-        if answer.mm is not None:
-            written = self.marked.answers.lines[line.name].mm  # in a detail
-            parts.append(f"{self.words.short(written or answer.mm, DIGITS)} {self.words.spelled('mm')}")
+        written = self.marked.answers.lines[line.name].mm  # in a detail, or on another drawing
+        if answer.mm is not None or written is not None:
+            parts.append(f"{self.words.short(written or answer.mm or 0.0, DIGITS)} {self.words.spelled('mm')}")
         if answer.value is not None:
             parts.append("+" * answer.plus + self._value(line.name, answer.value))
         if answer.direction is not None:
