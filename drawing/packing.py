@@ -198,12 +198,14 @@ def _in_two(tables: Sequence[NDArray[np.int16]], count: int) -> NDArray[np.int16
 def _turned(least: NDArray[np.int16]) -> NDArray[np.int16]:
     """Return by every number of steps of one side how few of the other one there may be; `least` is that the other way.
 
-    It never rises along a row, so that the steps of the one side at which it is more than so many are counted.
+    It never rises along a row: at each step it falls from so many of the other side to so many, at which that step is
+    the first. Counted from the most of the other side down, and turned round.
     """
     import numpy as np
 
-    count = least[..., 0].size
-    rows = (STEPS + 2) * np.arange(count)[:, None]
-    steps = np.bincount((np.minimum(least, STEPS + 1).reshape(count, -1) + rows).ravel(), minlength=(STEPS + 2) * count)
-    more = STEPS + 1 - steps.astype(np.int16).reshape(count, -1).cumsum(axis=1, dtype=np.int16)[:, : STEPS + 1]
-    return np.where(more > STEPS, np.int16(NEVER), more).reshape(least.shape)
+    rows = np.zeros((*least.shape[:-1], STEPS + 3), np.int16)
+    rows[..., 0] = STEPS + 1
+    np.minimum(least, STEPS + 1, out=rows[..., 1:-1])
+    falls, steps = rows[..., :-1] - rows[..., 1:], np.append(np.arange(STEPS + 1, dtype=np.int16), np.int16(NEVER))
+    first = np.repeat(np.broadcast_to(steps, falls.shape).ravel(), falls.ravel())
+    return first.reshape(least.shape)[..., ::-1]
