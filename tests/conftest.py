@@ -16,10 +16,12 @@ from typing import Any
 
 import pytest
 
+from kulman import cli
 from kulman.drawing.compose import Drawn
 from kulman.scales.choices import SHEET
 from kulman.scales.errors import VARIABLE
 from kulman.scales.kept import Kept
+from kulman.tests.support.commands import Run
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 from kulman.variants import sheets
 from kulman.variants.case import Case, Request
@@ -105,6 +107,18 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 os.environ.pop(VARIABLE, None)  # tests choose the language of messages themselves, those in processes too
 os.environ[PLACE] = ""  # and have no settings of whoever runs them
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs a command in this process: its status, standard output and standard error."""
+
+    def running(*arguments: object) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as stopped:
+            cli.main([*map(str, arguments)])
+        return int(stopped.value.code or 0), *capsys.readouterr()
+
+    return running
 
 
 @pytest.fixture(

@@ -10,24 +10,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman import cli, sheet, solve
+from kulman import sheet, solve
 from kulman.drawing.formats import FORMATS
 from kulman.plans.hands.shaky import PRESETS, Hand, Paper, draw
 from kulman.plans.hands.spread import DRAWINGS, SEED
 from kulman.scales.choices import HANDS, SIZES
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.commands import Run
 from kulman.variants.hands import _hand_of
 from kulman.variants.shelf import bundled
 
 KEYS = {"low", "high", "mm", "percent", "miss", "miss_mm", "step", "share", "tolerance", "tolerance_mm"}
 KEYS |= {"degrees", "tolerance_deg", "failed", "undrawn"}
-
-
-def run(command: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as stopped:
-        cli.main(command.split("|"))
-    assert isinstance(stopped.value.code, int)
-    return stopped.value.code, *capsys.readouterr()
 
 
 def items(task: str = "nau-slider-crank", variant: str | None = "example", **more: Any) -> dict[str, Any]:
@@ -52,11 +46,11 @@ def test_what_is_infinite_of_rigid_beams_misses_nothing(rigid: tuple[str, ...]) 
         assert row.split() == [infinite[0], "–", *row.split()[2:3], "–"]
 
 
-def test_json_of_the_command_line_says_what_a_hand_draws_if_anything(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run("solve|nau-slider-crank|-v|example|--hand|normal|--json", capsys)
+def test_json_of_the_command_line_says_what_a_hand_draws_if_anything(run: Run) -> None:
+    status, out, _ = run("solve", "nau-slider-crank", "-v", "example", "--hand", "normal", "--json")
     found = json.loads(out)
     quantities = found["quantities"]
-    lost, without, _ = run("solve|nau-slider-crank|--set|l_AB=5|--hand|normal|--json", capsys)
+    lost, without, _ = run("solve", "nau-slider-crank", "--set", "l_AB=5", "--hand", "normal", "--json")
 
     assert (status, lost) == (0, 3)
     assert "hand" not in json.loads(without)
@@ -140,10 +134,10 @@ def test_a_hand_of_ones_own_is_read(text: str) -> None:
         ("0.2 mm, 0.5 deg, -1 mm", "hand-negative"),
     ],
 )
-def test_a_wrong_hand_is_refused_in_one_line(text: str, key: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_hand_is_refused_in_one_line(text: str, key: str, run: Run) -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", hand=text)
-    status, out, err = run(f"solve|nau-slider-crank|--hand|{text}", capsys)
+    status, out, err = run("solve", "nau-slider-crank", "--hand", text)
 
     assert refused.value.key == key
     assert all(refused.value.text(language) for language in LANGUAGES)

@@ -10,13 +10,14 @@ from typing import Any
 
 import pytest
 
-from kulman import cli, load_task, sheet, solve
+from kulman import load_task, sheet, solve
 from kulman.plans.cams.cam import GIVENS, Cam, Curve
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.solve import unusual
 from kulman.scales.errors import InputError
 from kulman.tests.support.cams import ROCKER
+from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.kinds import table_in
 from kulman.variants.kinds.cam import KIND
@@ -189,15 +190,13 @@ def test_a_turn_is_as_long_for_the_checks_as_for_the_motion(excess: float, whole
     ],
 )
 def test_what_cannot_be_set_is_explained_in_one_line(
-    arguments: str, line: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    arguments: str, line: str, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
 
-    with pytest.raises(SystemExit) as stopped:
-        cli.main(["solve", TASK, *arguments.split()])
+    status, out, err = run("solve", TASK, *arguments.split())
 
-    out, err = capsys.readouterr()
-    assert (stopped.value.code, out, err.count("\n")) == (2, "", 1)
+    assert (status, out, err.count("\n")) == (2, "", 1)
     assert err.startswith(line)
 
 

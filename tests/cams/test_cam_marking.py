@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman import check, cli, solve
+from kulman import check, solve
 from kulman.plans.boards.exact import run
 from kulman.plans.cams.cam import LAWS
 from kulman.plans.cams.solve import BESIDE
@@ -26,6 +26,7 @@ from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import _Explanation, explain
 from kulman.tests.support.cams import MADI, ROCKER, Settings, asked, asked_key, cam_book, keyed_cam, random_cams
 from kulman.tests.support.cases import some
+from kulman.tests.support.commands import Run
 from kulman.tests.support.marking_cases import HAND, moves, students
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import Solution
@@ -89,15 +90,13 @@ def test_a_value_in_another_unit_is_told_from_a_wrong_one(tmp_path: Path) -> Non
     assert {verdicts[name] for name in times} == {Verdict.SCALE}
 
 
-def test_a_report_has_degrees_and_the_letters_of_diagrams(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_report_has_degrees_and_the_letters_of_diagrams(tmp_path: Path, run: Run) -> None:
     (tmp_path / "form.csv").write_text(
         "quantity,value\nnu,27.6\ngamma_rise_min,75\nr_0_flat_min,55\n", encoding="utf-8"
     )
 
-    with pytest.raises(SystemExit):
-        cli.main(["check", MADI, str(tmp_path / "form.csv"), "--lang", "en"])
+    _, out, _ = run("check", MADI, tmp_path / "form.csv", "--lang", "en")
 
-    out = capsys.readouterr().out
     assert "27.6 °" in out
     assert "75 °" in out
     assert "rad" not in out.replace("radius", "")

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 import kulman
-from kulman import cli
 from kulman.plans.cams.course import CamCourse
 from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import InputError
 from kulman.tests.support.cams import ROCKER
+from kulman.tests.support.commands import Run
 from kulman.variants.sweeps.sweeps import CourseSweep
 
 TASK = "madi-cam"
@@ -120,14 +120,12 @@ def test_columns_follow_what_is_solved() -> None:
 
 
 def test_what_cams_have_not_is_refused_in_one_line_and_nothing_is_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
     monkeypatch.chdir(tmp_path)
     for arguments in ("-o x.svg", "--points B", "--chords B", "--from 30deg", "--positions 2"):
-        with pytest.raises(SystemExit) as stopped:
-            cli.main(["sweep", TASK, *arguments.split()])
-        out, err = capsys.readouterr()
-        assert (stopped.value.code, out, err.count("\n")) == (2, "", 1)
+        status, out, err = run("sweep", TASK, *arguments.split())
+        assert (status, out, err.count("\n")) == (2, "", 1)
     with pytest.raises(InputError) as problem:
         swept().save(tmp_path / "a.csv", tmp_path / "a.svg")
     assert problem.value.key == "sweep-drawing"

@@ -19,7 +19,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
-from kulman import KulmanError, cli, solve
+from kulman import KulmanError, solve
 from kulman.docs import refresh
 from kulman.drawing.charts.cycle import Abscissa
 from kulman.drawing.charts.paper import Label, put
@@ -33,6 +33,7 @@ from kulman.plans.lab.race import Effort
 from kulman.plans.lab.ropes import depth
 from kulman.plans.linkages.limits import Arc
 from kulman.scales.errors import PositionError
+from kulman.tests.support.commands import Run
 from kulman.tests.support.documents import run_here
 from kulman.variants.charts.charts import Charts, chart
 
@@ -73,13 +74,6 @@ def made(task: str) -> Charts:
 
 def only(task: str, *names: str) -> Charts:
     return replace(made(task), charts={name: made(task)[name] for name in names})
-
-
-def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TASK) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as stopped:
-        cli.main(["chart", task, *arguments])
-    assert isinstance(stopped.value.code, int)
-    return stopped.value.code, *capsys.readouterr()
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:
@@ -194,15 +188,13 @@ def test_pictures_are_the_same_twice_and_have_no_colour(task: str, name: str, tm
 
 @pytest.mark.soak
 @pytest.mark.parametrize("task", ["few", TASK, CAM])
-def test_a_pdf_has_a_page_for_each_chart(
-    task: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_pdf_has_a_page_for_each_chart(task: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
     path, pages = tmp_path / "a.pdf", 2 if task == "few" else 3
     if task == "few":
         only(TASK, *BOTH).save(path)
     else:  # with their full effort
         monkeypatch.undo()
-        assert run(["--lang", "en", "-o", str(path)], capsys, task) == (0, f"{path}\n", "")
+        assert run("chart", task, "--lang", "en", "-o", str(path)) == (0, f"{path}\n", "")
     assert len(re.findall(rb"/Type /Page\b", path.read_bytes())) == pages
 
 
@@ -240,8 +232,8 @@ def test_rows_are_written_for_every_chart_and_read_back(tmp_path: Path) -> None:
     assert {row["kind"] for row in rows[HOIST, "depth"]} == {"simpler", "rope", "one_mass"}
 
 
-def test_json_holds_everything_in_si(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(["--chart", "stability,depth", "--positions", "8", "--json"], capsys)
+def test_json_holds_everything_in_si(run: Run) -> None:
+    status, out, _ = run("chart", TASK, "--chart", "stability,depth", "--positions", "8", "--json")
     printed = json.loads(out)
     linkage, cam, hoist = (json.loads(json.dumps(made(task).to_json(), allow_nan=False)) for task in (TASK, CAM, HOIST))
 
@@ -269,17 +261,17 @@ def test_json_holds_everything_in_si(capsys: pytest.CaptureFixture[str]) -> None
     assert {entry["kind"] for entry in hoist["accuracy"]["entries"]} == {"lift_off", "course", "peak"}
 
 
-def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(run: Run) -> None:
     said = "the chart of the model's depth needs the plan of forces or the lever\n"
-    assert run(["--only", "velocity", "--positions", "6", "--chart", "depth"], capsys) == (2, "", said)
+    assert run("chart", TASK, "--only", "velocity", "--positions", "6", "--chart", "depth") == (2, "", said)
     rigid = chart(HOIST, set={"I_0": "inf"}, lang="en")  # without phase 1
     assert [*rigid.charts] == ["depth", "choice"]
     assert {warning.key for warning in rigid.warnings} == {"chart-hoist-rigid"}
 
 
 @pytest.mark.parametrize("plans", ["structure", "position", "velocity"])
-def test_few_plans_have_their_stability(plans: str, capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(["--only", plans, "--chart", "stability", "--positions", "6"], capsys)
+def test_few_plans_have_their_stability(plans: str, run: Run) -> None:
+    status, out, err = run("chart", TASK, "--only", plans, "--chart", "stability", "--positions", "6")
     assert (status, err) == (0, "")
     assert "worst intersection" in out
 
@@ -305,10 +297,8 @@ def test_few_plans_have_their_stability(plans: str, capsys: pytest.CaptureFixtur
         pytest.param(TASK, ["--lang", "de"], "de", id="language"),
     ],
 )
-def test_wrong_arguments_are_answered_in_one_line(
-    task: str, arguments: list[str], told: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    status, out, err = run(arguments, capsys, task)
+def test_wrong_arguments_are_answered_in_one_line(task: str, arguments: list[str], told: str, run: Run) -> None:
+    status, out, err = run("chart", task, *arguments)
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert told in err
     assert list(Path().iterdir()) == []
@@ -336,8 +326,8 @@ def test_what_python_asks_for_in_vain_is_refused(task: str, arguments: dict[str,
     assert problem.value.key == key
 
 
-def test_a_mechanism_that_never_assembles_has_status_3(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(["--set", "l_AB=9000"], capsys, "scheme-03-crank-rocker")
+def test_a_mechanism_that_never_assembles_has_status_3(run: Run) -> None:
+    status, out, err = run("chart", "scheme-03-crank-rocker", "--set", "l_AB=9000")
     assert (status, out, err.count("\n")) == (3, "", 1)
     assert "any position of the crank" in err
 
@@ -401,10 +391,8 @@ def test_no_file_is_written_when_one_cannot_be(tmp_path: Path) -> None:
         (CAM, ["--chart", "stability", "--tolerance", "5"], ["tolerance", "positions"]),
     ],
 )
-def test_what_changes_nothing_on_a_chart_is_said(
-    task: str, asked: list[str], unused: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
-    status, _, said = run([*asked, "--positions", "12", "--lang", "en"], capsys, task)
+def test_what_changes_nothing_on_a_chart_is_said(task: str, asked: list[str], unused: list[str], run: Run) -> None:
+    status, _, said = run("chart", task, *asked, "--positions", "12", "--lang", "en")
     assert status == 0
     named = [line.partition(" changes nothing")[0] for line in said.splitlines() if "changes nothing" in line]
     assert named == [f"--{name}" for name in unused]

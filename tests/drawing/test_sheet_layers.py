@@ -19,7 +19,7 @@ from pdfminer.pdftypes import resolve1
 from pdfminer.utils import decode_text
 from pypdfium2 import PdfDocument
 
-from kulman import cli, handout, sheet
+from kulman import handout, sheet
 from kulman.drawing.formats import FORMATS, drawing_area, printable, reserved_boxes
 from kulman.drawing.page import Layer, Page, parts_of
 from kulman.drawing.pdf import write as write_pdf
@@ -27,6 +27,7 @@ from kulman.drawing.pdf import write_tiles
 from kulman.drawing.shapes import Group, Line
 from kulman.drawing.svg import svg_text
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.commands import Run
 from kulman.tests.support.readback import SVG
 from kulman.tests.support.shapes import leaves, line_of
 from kulman.variants.sheets import Sheet
@@ -184,14 +185,10 @@ def test_a_grid_has_squares_of_5_mm_that_keep_clear_of_the_title_block(name: str
 
 
 @pytest.mark.parametrize("clash", [["--hidden-key", "--key"], ["--hidden-key", "--over"], ["--grid", "--over"]])
-def test_what_does_not_go_together_is_said_in_a_line(
-    clash: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_does_not_go_together_is_said_in_a_line(clash: list[str], tmp_path: Path, run: Run) -> None:
     words = [*clash, "velocity"] if "--over" in clash else clash
-    with pytest.raises(SystemExit) as left:
-        cli.main(["handout", TASK, *words, "-o", str(tmp_path / "h.pdf")])
-    out, err = capsys.readouterr()
-    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
+    status, out, err = run("handout", TASK, *words, "-o", tmp_path / "h.pdf")
+    assert (status, out, err.count("\n")) == (2, "", 1)
     assert all(option in err for option in clash)
     assert list(tmp_path.iterdir()) == []
 

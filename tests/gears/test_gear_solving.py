@@ -15,13 +15,14 @@ import numpy as np
 import pytest
 
 import kulman
-from kulman import cli, solve, sweep
+from kulman import solve, sweep
 from kulman.plans.gears.course import GearCourse
 from kulman.plans.gears.gear import CCW, CW, PLANS, STANDARD, GearPair
 from kulman.plans.gears.geometry import _geometry_program
 from kulman.plans.gears.solve import SECTIONS, WHOLE, SolvedGear, conditions_of, scale_errors, section_of, solve_gear
 from kulman.plans.hands.shaky import paper_of, preset
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.commands import Run
 from kulman.tests.support.gears import SEED, contacts, counted_ratio, madi, random_pairs
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.making.new_variants import _ranges_of
@@ -251,7 +252,7 @@ def test_extremes_are_at_the_ends_of_the_contact_and_ends_of_an_undercut_one_are
     assert next(iter(GearCourse(solved_for({"z_1": 10.0, "x_1": -0.2}, CCW)).marks)) == "start"
 
 
-def test_table_csv_and_json_tell_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_table_csv_and_json_tell_the_same(tmp_path: Path, run: Run) -> None:
     swept = sweep(TASK, lang="en", positions=5)
 
     head, *rows = csv.reader(io.StringIO(swept.csv()))
@@ -263,10 +264,9 @@ def test_table_csv_and_json_tell_the_same(tmp_path: Path, capsys: pytest.Capture
         assert math.radians(float(row[1])) == pytest.approx(data["columns"]["phi"]["value"][k], abs=1e-9)
     assert f"{data['columns']['theta_12']['value'][0]:.3f}".replace("-", "−") in swept.table()
     assert [zone["pairs"] for zone in data["zones"]] == [2, 1, 2]
-    with pytest.raises(SystemExit):
-        cli.main(["sweep", TASK, "-o", str(tmp_path / "x.csv"), "--lang", "uk"])
+    _, out, _ = run("sweep", TASK, "-o", tmp_path / "x.csv", "--lang", "uk")
     assert (tmp_path / "x.csv").read_bytes().count(b"\r\n") == 102
-    assert capsys.readouterr().out.strip().endswith("x.csv")
+    assert out.strip().endswith("x.csv")
 
 
 def test_what_a_pair_has_not_is_refused_before_anything_is_written(tmp_path: Path) -> None:

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman import check, cli, solve, sweep
+from kulman import check, solve, sweep
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.hoist import VALUES, Hoist
 from kulman.plans.hoist.solve import SolvedHoist, conditions_of, solve_hoist
 from kulman.plans.marking.answers import Verdict
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.commands import Run
 from kulman.tests.support.hoists import VARIANTS
 from kulman.variants.reader import check_text, load_task
 from kulman.variants.shelf import bundled_text
@@ -220,15 +221,12 @@ def test_json_is_in_si_and_says_what_bears() -> None:
     assert data["marks"]["t_1"] > 0.0
 
 
-def test_a_sweep_of_a_hoist_has_no_drawing_no_points_and_no_ends(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_sweep_of_a_hoist_has_no_drawing_no_points_and_no_ends(tmp_path: Path, run: Run) -> None:
     with pytest.raises(InputError) as refused:
         sweep(TASK, "V01").save(tmp_path / "forces.svg")
     assert refused.value.key == "sweep-drawing"
     assert not (tmp_path / "forces.svg").exists()
     for option in (["--points", "A"], ["--from", "1"], ["--to", "2"], ["--chords", "A"]):
-        with pytest.raises(SystemExit) as stopped:
-            cli.main(["sweep", TASK, *option])
-        assert stopped.value.code == 2
-        assert option[0] in capsys.readouterr().err
+        status, _, err = run("sweep", TASK, *option)
+        assert status == 2
+        assert option[0] in err

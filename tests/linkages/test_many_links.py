@@ -15,11 +15,12 @@ from typing import Any
 
 import pytest
 
-from kulman import cli, load_task, solve
+from kulman import load_task, solve
 from kulman.plans.linkages.mechanism import FRAME, Mechanism
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.tests.support.cases import some
 from kulman.tests.support.chains import chain
+from kulman.tests.support.commands import Run
 from kulman.tests.support.linkage_cases import Oracle
 from kulman.tests.support.task_files import task_of
 from kulman.variants.shelf import bundled
@@ -79,23 +80,15 @@ def test_many_links_move_and_bear_as_their_constraints_say(count: int) -> None:
             assert abs(values[name] - known[name]) <= 1e-9 * largest, name
 
 
-def run(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
-    with pytest.raises(SystemExit) as stopped:
-        cli.main([*arguments, "--lang", "en"])
-    out, err = capsys.readouterr()
-    assert stopped.value.code == 0, err
-    return out
-
-
 @pytest.mark.parametrize("count", [6, pytest.param(12, marks=pytest.mark.soak)])
-def test_commands_use_one_name_for_one_quantity(count: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_commands_use_one_name_for_one_quantity(count: int, tmp_path: Path, run: Run) -> None:
     task, form, answers = tmp_path / "chain.toml", tmp_path / "form.csv", tmp_path / "answers.csv"
     task.write_text(chain(count), encoding="utf-8")
     options = [str(task), "--set", f"F_{2 * count + 1}=250"]
 
-    found = json.loads(run(["solve", *options, "--scale", "mu_F_10_11=5 N/mm", "--json"], capsys))
-    run(["check", *options, "--form", str(form)], capsys)
-    swept = json.loads(run(["sweep", *options, "--positions", "4", "--json"], capsys))
+    found = json.loads(run("solve", *options, "--scale", "mu_F_10_11=5 N/mm", "--json", "--lang", "en")[1])
+    run("check", *options, "--form", str(form), "--lang", "en")
+    swept = json.loads(run("sweep", *options, "--positions", "4", "--json", "--lang", "en")[1])
 
     rows = [row.split(",")[0] for row in form.read_text(encoding="utf-8-sig").splitlines()]
     names = [name for name in rows if re.match(r"[A-Za-z]+_[\w]+$", name)]
@@ -106,7 +99,7 @@ def test_commands_use_one_name_for_one_quantity(count: int, tmp_path: Path, caps
     }
     said = (f"{n};{q['value']!r};{q['unit']}" for n, q in found["quantities"].items() if "value" in q)
     answers.write_text("quantity;value;unit\n" + "\n".join(said), encoding="utf-8")
-    report = json.loads(run(["check", *options, "-v", "1", str(answers), "--json"], capsys))
+    report = json.loads(run("check", *options, "-v", "1", str(answers), "--json", "--lang", "en")[1])
     assert {line["verdict"] for line in report["lines"]} == {"right"}
     assert {"R_12_11", "h_2_1", "h_12"} <= {line["quantity"] for line in report["lines"]}
 

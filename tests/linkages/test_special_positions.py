@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kulman import cli
 from kulman.plans.board import Program
 from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.batch import batch
@@ -25,6 +24,7 @@ from kulman.plans.linkages.solved import SolvedLinkage, board_givens, conditions
 from kulman.plans.quantities import references
 from kulman.scales.errors import LANGUAGES, RAISED
 from kulman.tests.linkages.test_second_solver import differing, quantities
+from kulman.tests.support.commands import Run
 from kulman.tests.support.mechanisms import (
     CRANK,
     ORIGIN,
@@ -162,17 +162,15 @@ COMMANDS = {
 
 
 @pytest.mark.parametrize("kind", COMMANDS)
-def test_the_command_line_tells_status_and_cause(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_line_tells_status_and_cause(kind: str, run: Run) -> None:
     command, name, cause = COMMANDS[kind]
 
-    with pytest.raises(SystemExit) as stopped:
-        cli.main(["solve", *command.split(), "--json"])
+    status, out, err = run("solve", *command.split(), "--json")
 
-    out, err = capsys.readouterr()
     found = json.loads(out)
     parts = [found["quantities"][name].get(part) for part in ("value", "x", "y")]
     assert found["status"] == kind.partition(" ")[0]
-    assert stopped.value.code == (0 if cause is None else 3)
+    assert status == (0 if cause is None else 3)
     assert (parts == [None] * 3) == (cause is not None)
     assert (cause or "") in err
     assert found["quantities"]["omega_1" if "omega_1" in found["quantities"] else "V_A"]["value"] is not None

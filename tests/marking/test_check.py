@@ -15,12 +15,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from kulman import check, cli, load_task, sheet, solve
+from kulman import check, load_task, sheet, solve
 from kulman.plans.hands.shaky import PRESETS
 from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import ASKED, messages, write
 from kulman.tests.support.answer_files import HEAD as COLUMNS
 from kulman.tests.support.cases import some
+from kulman.tests.support.commands import Run
 from kulman.tests.support.marking_cases import key, right_answers
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants import sheets
@@ -40,14 +41,6 @@ RIGHT = {"V_A": 4.006, "V_BA": 2.124, "V_B": 2.761, "omega_2": -16.34, "a_BA_n":
 Printed = pytest.CaptureFixture[str]
 
 
-def run(capsys: Printed, *arguments: str) -> tuple[int, str, str]:
-    """Run a command; return its status and what it prints."""
-    with pytest.raises(SystemExit) as left:
-        cli.main(["check", *arguments])
-    out, err = capsys.readouterr()
-    return int(left.value.code or 0), out, err
-
-
 def answers(tmp_path: Path, changed: dict[str, float] | None = None, about: str = "", name: str = "a.csv") -> str:
     """Write a form whose answers are right but for those changed."""
     rows = "".join(f"{name};;;{value};;\n" for name, value in {**RIGHT, **(changed or {})}.items())
@@ -56,22 +49,22 @@ def answers(tmp_path: Path, changed: dict[str, float] | None = None, about: str 
     return str(file)
 
 
-def marked(capsys: Printed, *arguments: str) -> dict[str, Any]:
+def marked(run: Run, *arguments: str) -> dict[str, Any]:
     """Return the JSON of a check."""
-    status, out, err = run(capsys, TASK, *arguments, "--json")
+    status, out, err = run("check", TASK, *arguments, "--json")
     assert (status, err) == (0, "")
     found = json.loads(out)
     return {**found, "verdicts": {line["quantity"]: line["verdict"] for line in found["lines"]}}
 
 
-def test_an_arm_of_the_lever_is_told_in_the_millimetres_in_which_it_was_drawn(capsys: Printed, tmp_path: Path) -> None:
+def test_an_arm_of_the_lever_is_told_in_the_millimetres_in_which_it_was_drawn(run: Run, tmp_path: Path) -> None:
     solution = solve(TASK, "example")
     arms = {q.name: round(4.0 * q.mm, 1) for q in solution.values() if q.name.startswith("h_lever_F") and q.mm}
     (form := tmp_path / "a.csv").write_text(
         HEAD.format(about="") + "".join(f"{name};;;{mm};mm;\n" for name, mm in arms.items()), encoding="utf-8"
     )
 
-    _, out, _ = run(capsys, TASK, str(form), "--lang", "en")
+    _, out, _ = run("check", TASK, str(form), "--lang", "en")
 
     told = re.findall(r"h_F\w+ +([\d.]+) mm +([\d.]+) mm .*right", out)
     assert len(told) == len(arms) > 2
@@ -97,35 +90,35 @@ def rows_of(variant: str) -> str:
     return "".join(f"{one.name};;;{abs(one.value or 0.0):.4g};;\n" for one in right)
 
 
-def test_right_answers_are_right_an_error_counts_once_and_a_mistake_is_named(tmp_path: Path, capsys: Printed) -> None:
-    right = marked(capsys, answers(tmp_path))
+def test_right_answers_are_right_an_error_counts_once_and_a_mistake_is_named(tmp_path: Path, run: Run) -> None:
+    right = marked(run, answers(tmp_path))
     assert right["first_wrong"] is None
     assert [right["verdicts"][name] for name in RIGHT] == ["right"] * len(RIGHT)
     assert right["counts"]["missing"] == len(right["lines"]) - len(RIGHT)
 
-    once = marked(capsys, answers(tmp_path, {"V_BA": 1.35, "omega_2": -10.4, "a_BA_n": 14.0}))
+    once = marked(run, answers(tmp_path, {"V_BA": 1.35, "omega_2": -10.4, "a_BA_n": 14.0}))
     assert once["first_wrong"] == "V_BA"
     assert [once["verdicts"][name] for name in ("V_BA", "omega_2", "a_BA_n")] == ["wrong", "carried", "carried"]
 
-    turned = marked(capsys, answers(tmp_path, {"a_B": 295.3}))  # with a_BA_n laid off from A to B
+    turned = marked(run, answers(tmp_path, {"a_B": 295.3}))  # with a_BA_n laid off from A to B
     assert turned["first_wrong"] == "a_B"
     assert "M38" in [mistake["id"] for candidate in turned["mistakes"] for mistake in candidate["mistakes"]]
 
-    own = marked(capsys, answers(tmp_path, {"V_BA": 1.3}), "--verdict-only")  # what a student is told
+    own = marked(run, answers(tmp_path, {"V_BA": 1.3}), "--verdict-only")  # what a student is told
     assert "mistakes" not in own
     assert {key for line in own["lines"] for key in line} == {"quantity", "verdict", "about", "answer"}
 
 
 @pytest.mark.parametrize("suffix", [".txt", ".html"])
-def test_a_student_sees_no_right_number_and_no_right_vector(tmp_path: Path, capsys: Printed, suffix: str) -> None:
+def test_a_student_sees_no_right_number_and_no_right_vector(tmp_path: Path, run: Run, suffix: str) -> None:
     file, report = answers(tmp_path, {"V_BA": 1.3, "a_B": 300.0, "omega_2": 9.0}), tmp_path / f"report{suffix}"
     written = {f"{abs(value):.4g}" for value in (*RIGHT.values(), 1.3, 300.0, 9.0)}
     solution = solve(TASK, "example", lang="en")
     sizes = [abs(q.value) for q in solution.quantities.values() if q.value and len(f"{q.value:.4g}") > 3]
 
-    run(capsys, TASK, file, "--verdict-only", "--lang", "en", "-o", str(report))
+    run("check", TASK, file, "--verdict-only", "--lang", "en", "-o", str(report))
     own = report.read_text(encoding="utf-8")
-    run(capsys, TASK, file, "--lang", "en", "-o", str(report))
+    run("check", TASK, file, "--lang", "en", "-o", str(report))
     teachers = report.read_text(encoding="utf-8")
 
     hidden = {solution.words.short(size, 4) for size in sizes} - written
@@ -136,11 +129,9 @@ def test_a_student_sees_no_right_number_and_no_right_vector(tmp_path: Path, caps
     assert "First wrong step" in own
 
 
-def test_a_page_escapes_what_students_write_loads_nothing_and_writes_numbers_in_full(
-    tmp_path: Path, capsys: Printed
-) -> None:
+def test_a_page_escapes_what_students_write_loads_nothing_and_writes_numbers_in_full(tmp_path: Path, run: Run) -> None:
     file = answers(tmp_path, about="student;<script>alert(1)</script>\n")
-    run(capsys, TASK, file, "-o", str(tmp_path / "r.html"))
+    run("check", TASK, file, "-o", str(tmp_path / "r.html"))
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert "<script" not in page
     assert "&lt;script&gt;" in page
@@ -186,12 +177,12 @@ def test_answers_are_marked_from_python_without_a_word(tmp_path: Path, capsys: P
     ],
 )
 def test_what_cannot_be_checked_is_answered_in_one_line(
-    tmp_path: Path, capsys: Printed, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], what: str
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], what: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("LC_ALL", "C")
 
-    status, out, err = run(capsys, *arguments)
+    status, out, err = run("check", *arguments)
 
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert what in err
@@ -217,10 +208,10 @@ def test_the_form_of_any_variant_filled_rightly_has_the_full_mark(tmp_path: Path
     assert (report.marked.mark, report.marked.notes) == (100.0, ())
 
 
-def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys: Printed) -> None:
+def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, run: Run) -> None:
     other = sheet_id(load_task(TASK), "5")
 
-    status, out, _ = run(capsys, TASK, answers(tmp_path, about=f"sheet id;{other}\n"), "-v", "3", "--lang", "en")
+    status, out, _ = run("check", TASK, answers(tmp_path, about=f"sheet id;{other}\n"), "-v", "3", "--lang", "en")
 
     assert status == 0
     assert f"the sheet id '{other}' is that of variant 5, not of variant 3" in out
@@ -270,14 +261,14 @@ def test_a_record_book_gives_the_variant() -> None:
         schemes.variant_of(schemes.tasks[0], "", "")
 
 
-def test_a_roster_gives_variants_and_own_data(tmp_path: Path, capsys: Printed) -> None:
+def test_a_roster_gives_variants_and_own_data(tmp_path: Path, run: Run) -> None:
     roster = tmp_path / "class.csv"
     roster.write_text(
         "student;record book;variant;phi [deg]\nА. Перша;11;example;60\nБ. Другий;12;;\n", encoding="utf-8"
     )
 
-    same = marked(capsys, answers(tmp_path, about="student;А.Перша\n"), "--roster", str(roster))
-    other = marked(capsys, answers(tmp_path, about="student;Б. Другий\n"), "--roster", str(roster))
+    same = marked(run, answers(tmp_path, about="student;А.Перша\n"), "--roster", str(roster))
+    other = marked(run, answers(tmp_path, about="student;Б. Другий\n"), "--roster", str(roster))
 
     assert (same["variant"], same["verdicts"]["V_B"], other["variant"]) == ("example", "right", "2")
     assert any("variant 'example'" in note or "варіант «example»" in note for note in other["notes"])
@@ -338,9 +329,9 @@ def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
     assert drawn == {"3"}
 
 
-def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, capsys: Printed) -> None:
+def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, run: Run) -> None:
     asked = rubric(tmp_path, 'out_of = 10\nasked = ["V_B", "V_BA", "a_B"]\n[weights]\nV_B = 2\n')
-    found = marked(capsys, answers(tmp_path, {"V_BA": 1.0}), "--rubric", asked)
+    found = marked(run, answers(tmp_path, {"V_BA": 1.0}), "--rubric", asked)
     verdicts = found["verdicts"]
     worth = 2.0 * (verdicts["V_B"] in ("right", "carried")) + (verdicts["a_B"] in ("right", "carried"))
     assert [line["quantity"] for line in found["lines"]] == ["V_BA", "V_B", "a_B"]
@@ -348,18 +339,18 @@ def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, capsys: Pr
 
     for directions, mark in (("required", 50.0), ("optional", 100.0)):
         asked = rubric(tmp_path, f'asked = ["V_BA", "V_B"]\ndirections = "{directions}"\n')
-        found = marked(capsys, answers(tmp_path), "--rubric", asked)
+        found = marked(run, answers(tmp_path), "--rubric", asked)
         assert found["mark"] == mark
         assert any("no direction" in note for note in found["notes"])
 
 
-def test_a_rubric_sets_tolerances_and_limits_single_quantities(tmp_path: Path, capsys: Printed) -> None:
+def test_a_rubric_sets_tolerances_and_limits_single_quantities(tmp_path: Path, run: Run) -> None:
     for name, value, text, verdicts in (
         ("V_B", 2.80, "[tolerance]\nmm = 0.1\npercent = 0.1\ndegrees = 0.05\n", ["right", "wrong"]),
         ("V_BA", 2.5, '[limits]\nV_BA = "50 cm/s"\n', ["wrong", "right"]),
     ):
         file, own = answers(tmp_path, {name: value}), ("--rubric", rubric(tmp_path, text))
-        assert [marked(capsys, file, *how)["verdicts"][name] for how in ((), own)] == verdicts
+        assert [marked(run, file, *how)["verdicts"][name] for how in ((), own)] == verdicts
 
 
 @pytest.mark.parametrize(

@@ -18,9 +18,10 @@ import numpy as np
 import openpyxl
 import pytest
 
-from kulman import check, cli
+from kulman import check
 from kulman.plans.hands.shaky import draw, preset
 from kulman.tests.support.answer_files import write
+from kulman.tests.support.commands import Run
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants.marking import checks
 from kulman.variants.marking.checks import Job, _mark_class, reported, slug
@@ -35,13 +36,6 @@ TASK = "nau-slider-crank"
 ASKED = ("V_A", "V_BA", "V_B", "V_S2", "omega_2", "a_BA_n", "a_BA_t", "a_B", "a_S2", "R_12", "R_32", "M_bal")
 CHARACTER = 7 / 96 * 25.4  # mm that a character of a column is wide
 MUS = {"mu_V": "velocity", "mu_a": "acceleration", "mu_F_23": "forces_23"}
-
-
-def run(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as left:
-        cli.main(["check", TASK, *map(str, arguments)])
-    out, err = capsys.readouterr()
-    return int(left.value.code or 0), out, err
 
 
 def class_file(tmp_path: Path, count: int, drawn: bool = True) -> Path:
@@ -85,14 +79,14 @@ class Stopped:
         return self._mark(job, desk, number, one)
 
 
-def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, run: Run) -> None:
     file, out, moodle = class_file(tmp_path, 5), tmp_path / "reports", tmp_path / "grades.csv"
     numbers = [[f"Student {number:02d}", str(number)] for number in (1, 2, 3, 4, 5, 9)]
     roster = write(tmp_path, [["student", "id number"], *numbers], name="roster")
     tables = tmp_path / "marks.xlsx", tmp_path / "marks.csv"
 
     status, printed, err = run(
-        capsys, file, "-v", "3", "--roster", roster, "--out", out, "--moodle", moodle,
+        "check", TASK, file, "-v", "3", "--roster", roster, "--out", out, "--moodle", moodle,
         "-o", tables[0], "-o", tables[1], "--lang", "en",
     )  # fmt: skip
 
@@ -117,7 +111,7 @@ def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.C
 
 
 def test_a_file_that_cannot_be_read_does_not_stop_the_others(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("LC_ALL", "C")
     (folder := tmp_path / "answers").mkdir()
@@ -126,9 +120,9 @@ def test_a_file_that_cannot_be_read_does_not_stop_the_others(
     (folder / "~$open.xlsx").write_bytes(b"x")
     marks = tmp_path / "marks.csv"
 
-    status, out, err = run(capsys, folder, "-o", marks, "--lang", "en")
-    by_pattern = run(capsys, folder / "c*.csv", "--lang", "en")[1]
-    single, _, refusal = run(capsys, folder / "class.csv", "-o", tmp_path / "r.txt")
+    status, out, err = run("check", TASK, folder, "-o", marks, "--lang", "en")
+    by_pattern = run("check", TASK, folder / "c*.csv", "--lang", "en")[1]
+    single, _, refusal = run("check", TASK, folder / "class.csv", "-o", tmp_path / "r.txt")
 
     assert (status, err.count("\n")) == (0, 1)
     assert "bad.csv: not a text" in err
@@ -223,13 +217,13 @@ def test_calculated_segments_are_too_exact_and_drawn_or_rounded_ones_are_not(tmp
     assert not _too_exact({})
 
 
-def test_students_who_share_their_errors_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_students_who_share_their_errors_are_named(tmp_path: Path, run: Run) -> None:
     file = class_file(tmp_path, 12)
     lines = file.read_text(encoding="utf-8").splitlines()
     lines[8] = ";".join(["Student 08", "N8", *lines[3].split(";")[2:]])
     file.write_text("\n".join(lines), encoding="utf-8")
 
-    _, out, _ = run(capsys, file, "--lang", "en")
+    _, out, _ = run("check", TASK, file, "--lang", "en")
 
     flagged = [line for line in out.splitlines() if "the same millimetres" in line]
     assert [line.startswith("Student 03") and "Student 08" in line for line in flagged] == [True, False]
@@ -289,13 +283,11 @@ def test_honest_hands_seldom_share_their_segments(step: float) -> None:
     assert pairs <= 1
 
 
-def test_the_form_of_a_class_has_its_students_and_reports_their_names(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_form_of_a_class_has_its_students_and_reports_their_names(tmp_path: Path, run: Run) -> None:
     roster = write(tmp_path, [["student", "record book"], ["=HYPERLINK(1)", "417"], ["Б", "5"]], name="roster")
     form = tmp_path / "form.csv"
 
-    status, out, _ = run(capsys, "--form", form, "--roster", roster, "--lang", "uk")
+    status, out, _ = run("check", TASK, "--form", form, "--roster", roster, "--lang", "uk")
 
     rows = list(csv.reader(form.read_text(encoding="utf-8-sig").splitlines(), delimiter=";"))
     assert (status, out) == (0, f"{form}\n")
@@ -341,12 +333,12 @@ def test_a_segment_of_a_length_stands_under_words(tmp_path: Path, language: str,
     assert not [name for name in names if "." in name]
 
 
-def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, run: Run) -> None:
     roster = write(tmp_path, [["student", "variant"], ["Student 01", "3"], ["Student 02", "4"]], name="roster")
     rows = [["student", "V_B", "omega_2", "a_B", "V_A", "V_Q"], ["Student 02"], ["Student 01", "5,6", "-15,7", "", "x"]]
     answers = write(tmp_path, rows)
 
-    status, out, err = run(capsys, answers, "--roster", roster, "-o", tmp_path / "m.csv", "--lang", "en")
+    status, out, err = run("check", TASK, answers, "--roster", roster, "-o", tmp_path / "m.csv", "--lang", "en")
 
     assert (status, "V_Q" in err) == (0, True)  # of the file, not of its first student, who has handed in nothing
     assert "  missing 2  " in out
@@ -355,13 +347,15 @@ def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, caps
     assert absent == ["Student 02 – nothing handed in"]
 
 
-def test_a_wrong_row_of_the_roster_harms_no_other_student(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_row_of_the_roster_harms_no_other_student(tmp_path: Path, run: Run) -> None:
     faulty = [["Student 02", "17", "2"], ["Student 03", "", "1,2E+11"]]
     roster = write(tmp_path, [["student", "variant", "record book"], ["Student 01", "3", "1"], *faulty], name="roster")
     rows = [["student", "V_B", "V_A"], *([f"Student 0{n}", "5,6", "5,86"] for n in (1, 2, 3))]
     answers, form, grades = write(tmp_path, rows), tmp_path / "form.csv", tmp_path / "grades.csv"
 
-    status, out, err = run(capsys, answers, "--roster", roster, "--form", form, "--moodle", grades, "--lang", "en")
+    status, out, err = run(
+        "check", TASK, answers, "--roster", roster, "--form", form, "--moodle", grades, "--lang", "en"
+    )
 
     told = err.splitlines()
     assert (status, len(told)) == (0, 2)
@@ -374,7 +368,7 @@ def test_a_wrong_row_of_the_roster_harms_no_other_student(tmp_path: Path, capsys
     assert grades.read_text(encoding="utf-8-sig").count("Student") == 1
 
     wrong = write(tmp_path, [["student", "variant"], ["Student 01", "17"], ["Student 02", "18"]], name="wrong")
-    status, _, err = run(capsys, answers, "--roster", wrong, "--lang", "en")
+    status, _, err = run("check", TASK, answers, "--roster", wrong, "--lang", "en")
 
     assert (status, "B2: " in err) == (2, True)  # of no row is it known which variant: that is another task's list
 
@@ -402,9 +396,7 @@ def test_namesakes_are_told_apart_by_group_and_by_variant(tmp_path: Path) -> Non
     assert [[entry.who.student, entry.who.group, entry.variant] for entry in entries if entry] == of
 
 
-def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(tmp_path: Path, run: Run) -> None:
     file, page, marks = class_file(tmp_path, 8), tmp_path / "class.html", tmp_path / "marks.csv"
     head, *lines = (line.split(";") for line in file.read_text(encoding="utf-8-sig").splitlines())
     lines[3][1:] = ["N4", *lines[0][2:]]  # copied
@@ -418,7 +410,7 @@ def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(
     roster = write(tmp_path, [["student", "id number", "record book"], *known, ["<b>", "N9", "9"]], name="roster")
 
     given = answers, "-v", "3", "--roster", roster, "-o", page, "-o", marks, "--lang", "en"
-    status, printed, told = run(capsys, *given)
+    status, printed, told = run("check", TASK, *given)
 
     html, told = page.read_text(encoding="utf-8"), told.replace("'", "")
     listed = [line.split("  ")[0] for line in printed.splitlines()][:9]
@@ -456,7 +448,7 @@ def test_a_form_asks_for_what_the_rubric_asks(tmp_path: Path) -> None:
 
 
 def test_who_has_answered_nothing_has_no_mark_and_who_copies_a_short_work_of_values_is_seen(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, run: Run
 ) -> None:
     dice, mu, of = random.Random(1), 0.1, key(TASK, "3")
     names = ("V_BA", "V_B", "V_S2")
@@ -470,7 +462,7 @@ def test_who_has_answered_nothing_has_no_mark_and_who_copies_a_short_work_of_val
     rows[3][1:] = rows[0][1:]
     answers = write(tmp_path, [["student", *names], *rows, ["Student 5", "", "", ""]])
 
-    status, out, _ = run(capsys, answers, "-v", "3", "-o", tmp_path / "m.csv", "--lang", "en")
+    status, out, _ = run("check", TASK, answers, "-v", "3", "-o", tmp_path / "m.csv", "--lang", "en")
 
     lines = {line[:9]: " ".join(line.split()) for line in out.splitlines()}
     assert status == 0

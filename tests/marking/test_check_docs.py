@@ -11,9 +11,10 @@ from typing import Any
 
 import pytest
 
-from kulman import check, cli, solve
+from kulman import check, solve
 from kulman.docs import marking_tables, seeds_tables
 from kulman.docs.refresh import language
+from kulman.tests.support.commands import Run
 from kulman.variants.marking.wording import mistake_texts
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -55,11 +56,10 @@ def test_a_reason_stands_beside_what_is_not_right_and_what_deviates() -> None:
     assert all(of_cam)
 
 
-def test_the_sources_are_marked_as_the_guide_tells(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_sources_are_marked_as_the_guide_tells(run: Run) -> None:
     def printed(task: str, *options: str) -> dict[str, Any]:
-        with pytest.raises(SystemExit):
-            cli.main(["check", task, "printed", "--json", *options])
-        found: dict[str, Any] = json.loads(capsys.readouterr().out)
+        _, out, _ = run("check", task, "printed", "--json", *options)
+        found: dict[str, Any] = json.loads(out)
         return found
 
     no_rule = printed("nau-slider-crank")  # explains the velocity plan

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from kulman import check, cli
+from kulman import check
 from kulman.drawing.linkages.reading import read
 from kulman.plans.board import POSITION
 from kulman.plans.marking.answers import Verdict
@@ -27,16 +27,6 @@ TASKS = ("nau-slider-crank", "madi-four-bar", "scheme-09-shaper")
 APART = 400.0  # mm between plans
 Lines = list[tuple[complex, complex]]
 Texts = list[tuple[complex, str]]
-
-
-@pytest.fixture
-def command(capsys: pytest.CaptureFixture[str]) -> Run:
-    def running(*arguments: str) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as stopped:
-            cli.main(arguments)
-        return int(stopped.value.code or 0), *capsys.readouterr()
-
-    return running
 
 
 def asked(task: str, **how: Any) -> tuple[Check, Keyed]:
@@ -241,15 +231,13 @@ def test_a_drawing_in_another_unit_is_refused_by_its_size(tmp_path: Path, times:
     assert str(round(times * max(abs(a - b) for a, b in lines))) in str(error.value)
 
 
-def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, command: Run) -> None:
+def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, run: Run) -> None:
     _, key = asked("nau-slider-crank")
     one = next(one for one in key.book.signatures if one.broken.mistake == "M39")
     file = handed_in(tmp_path, key, one.broken.program, one.values)
     outputs = [tmp_path / f"marked{kind}" for kind in (".svg", ".pdf", ".dxf", ".html")]
 
-    status, _, stderr = command(
-        "check", "nau-slider-crank", str(file), "--lang", "en", *(f"-o{out}" for out in outputs)
-    )
+    status, _, stderr = run("check", "nau-slider-crank", str(file), "--lang", "en", *(f"-o{out}" for out in outputs))
 
     assert status == 0, stderr
     before, after = read_drawing(file), read_drawing(outputs[2])
@@ -263,23 +251,21 @@ def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, command: Run) -> No
 
 
 @pytest.mark.soak
-def test_a_student_is_not_shown_where_a_wrong_vector_should_be(tmp_path: Path, command: Run) -> None:
+def test_a_student_is_not_shown_where_a_wrong_vector_should_be(tmp_path: Path, run: Run) -> None:
     _, key = asked("nau-slider-crank")
     one = next(one for one in key.book.signatures if one.broken.mistake == "M39")
     file = handed_in(tmp_path, key, one.broken.program, one.values)
     drawings = {}
     for own in ((), ("--verdict-only",)):
         out = tmp_path / f"marked{len(own)}.dxf"
-        command("check", "nau-slider-crank", str(file), *own, "-o", str(out))
+        run("check", "nau-slider-crank", str(file), *own, "-o", str(out))
         drawings[own] = read_drawing(out)
 
     assert len(drawings[()].tails) > len(drawings["--verdict-only",].tails)
 
 
-def test_a_marked_drawing_is_refused_for_a_form(tmp_path: Path, command: Run) -> None:
-    status, _, stderr = command(
-        "check", "nau-slider-crank", "printed", "-o", str(tmp_path / "marked.svg"), "--lang", "en"
-    )
+def test_a_marked_drawing_is_refused_for_a_form(tmp_path: Path, run: Run) -> None:
+    status, _, stderr = run("check", "nau-slider-crank", "printed", "-o", str(tmp_path / "marked.svg"), "--lang", "en")
 
     assert status == 2
     assert "only for one drawing" in stderr
@@ -308,11 +294,11 @@ def test_drawings_of_a_class_are_named_after_students(tmp_path: Path) -> None:
     assert len(told) == 1
 
 
-def test_a_marked_drawing_is_plain_data_too(tmp_path: Path, command: Run) -> None:
+def test_a_marked_drawing_is_plain_data_too(tmp_path: Path, run: Run) -> None:
     _, key = asked("nau-slider-crank")
     file = handed_in(tmp_path, key, key.key.paper.program, key.key.values)
 
-    _, stdout, _ = command("check", "nau-slider-crank", str(file), "--json", "--lang", "en")
+    _, stdout, _ = run("check", "nau-slider-crank", str(file), "--json", "--lang", "en")
 
     said = json.loads(stdout)
     assert said["counts"]["wrong"] == 0

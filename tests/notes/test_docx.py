@@ -22,7 +22,7 @@ from fontTools.ttLib import TTFont
 from lxml import etree
 from PIL import Image
 
-from kulman import batch, cli, note
+from kulman import batch, note
 from kulman.drawing.notes.blocks import (
     Document,
     Equations,
@@ -38,6 +38,7 @@ from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.omml import built_up
 from kulman.drawing.text import spelled
 from kulman.tests.support.cases import some
+from kulman.tests.support.commands import Run
 
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
 ARITHMETIC = re.compile(r"[\d.,()·/+−√^{} ]+")
@@ -429,16 +430,14 @@ def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
 
 @pytest.mark.parametrize("library", ["docx", "fontTools", "pypdfium2"])
 def test_without_the_extra_a_line_says_so_and_nothing_is_written(
-    library: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    library: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
     monkeypatch.setitem(sys.modules, library, None)
     files = [argument for kind in ("md", "docx") for argument in ("-o", str(tmp_path / f"a.{kind}"))]
 
-    with pytest.raises(SystemExit) as left:
-        cli.main(["note", "nau-slider-crank", "--only", "structure", *files])
+    status, out, err = run("note", "nau-slider-crank", "--only", "structure", *files)
 
-    out, err = capsys.readouterr()
-    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
+    assert (status, out, err.count("\n")) == (2, "", 1)
     assert "pip install fonttools pypdfium2 python-docx" in err
     assert list(tmp_path.iterdir()) == []
 

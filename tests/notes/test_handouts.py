@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LAParams, LTChar, LTCurve
 
-from kulman import cli, handout, note, solve
+from kulman import handout, note, solve
 from kulman.drawing.cams.diagrams_view import DIAGRAMS_FIGURE
 from kulman.drawing.cams.profile_view import FIGURES as PROFILE_FIGURES
 from kulman.drawing.cams.sizes_view import FIGURES as SIZE_FIGURES
@@ -36,6 +36,7 @@ from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
 from kulman.drawing.words import Words
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.cases import some
+from kulman.tests.support.commands import Run
 from kulman.tests.support.shapes import leaves, line_of
 from kulman.variants.case import Case, Request
 from kulman.variants.kinds.linkage import placed
@@ -391,14 +392,10 @@ def test_steps_warn_where_nothing_drawn_has_any(task: str, only: str) -> None:
         (["--format", "A9"], "A9"),
     ],
 )
-def test_what_cannot_be_done_is_said_in_a_line(
-    arguments: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit) as left:
-        cli.main(["handout", TASK, *arguments, "-o", str(tmp_path / "h.pdf")])
+def test_what_cannot_be_done_is_said_in_a_line(arguments: list[str], said: str, tmp_path: Path, run: Run) -> None:
+    status, out, err = run("handout", TASK, *arguments, "-o", tmp_path / "h.pdf")
 
-    out, err = capsys.readouterr()
-    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
+    assert (status, out, err.count("\n")) == (2, "", 1)
     assert said in err
     assert list(tmp_path.iterdir()) == []
 

@@ -15,7 +15,7 @@ import docx
 import pypdfium2
 import pytest
 
-from kulman import cli, note, sheet, solve
+from kulman import note, sheet, solve
 from kulman.drawing.notes.blocks import (
     PAPER,
     Block,
@@ -38,6 +38,7 @@ from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
 from kulman.tests.notes import test_docx as in_word
 from kulman.tests.support.cases import solve_case
+from kulman.tests.support.commands import Run
 from kulman.variants.case import Case, Settings
 from kulman.variants.notes import Note
 from kulman.variants.shelf import bundled, bundled_text
@@ -538,17 +539,10 @@ def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() 
     assert "reduced to 68 %" in folded
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as left:
-        cli.main(["note", TASK, *arguments])
-    out, err = capsys.readouterr()
-    return int(left.value.code or 0), out, err
-
-
-def test_a_figure_alone_is_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_figure_alone_is_a_picture(tmp_path: Path, run: Run) -> None:
     file = tmp_path / "velocity.svg"
 
-    status, out, err = run(capsys, "-v", "3", "--figure", "velocity", "-o", str(file))
+    status, out, err = run("note", TASK, "-v", "3", "--figure", "velocity", "-o", str(file))
 
     assert (status, out.strip(), err) == (0, str(file), "")
     assert 'data-quantity="V_B"' in file.read_text(encoding="utf-8")
@@ -565,11 +559,11 @@ def test_a_figure_alone_is_a_picture(tmp_path: Path, capsys: pytest.CaptureFixtu
     ],
 )
 def test_what_cannot_be_done_is_said_in_a_line(
-    arguments: list[str], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
     monkeypatch.chdir(tmp_path)
 
-    status, out, err = run(capsys, *arguments)
+    status, out, err = run("note", TASK, *arguments)
 
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert said in err

@@ -13,7 +13,6 @@ import pytest
 import quickjs
 
 import kulman
-from kulman.cli import main
 from kulman.plans.cams import cam as cams
 from kulman.plans.cams.solve import solve_cam
 from kulman.plans.hoist import hoist as hoists
@@ -23,6 +22,7 @@ from kulman.plans.names import role
 from kulman.plans.quantities import unit_of
 from kulman.scales.errors import InputError
 from kulman.tests.support.cases import some
+from kulman.tests.support.commands import Run
 from kulman.variants import sheets
 from kulman.variants.case import Case, Request
 from kulman.variants.reader import load_task
@@ -232,19 +232,17 @@ def test_every_point_with_a_letter_is_drawn(task: str) -> None:
     assert lettered == {shape["at"] for shape in shapes if shape["k"] in ("pin", "pivot", "centre", "block", "guide")}
 
 
-def test_a_page_is_written_beside_the_sheet(tmp_path: Any, capsys: Any) -> None:
+def test_a_page_is_written_beside_the_sheet(tmp_path: Any, run: Run) -> None:
     files = [str(tmp_path / name) for name in ("moving.html", "sheet.svg")]
-    with pytest.raises(SystemExit) as done:
-        main(["sheet", "nau-slider-crank", "-o", files[0], "-o", files[1]])
-    assert done.value.code in (0, None)
+    status, *_ = run("sheet", "nau-slider-crank", "-o", files[0], "-o", files[1])
+    assert status == 0
     assert (tmp_path / "moving.html").read_text("utf-8") == page_of("nau-slider-crank")
 
 
-def test_a_page_has_neither_paper_nor_positions(tmp_path: Any, capsys: Any) -> None:
+def test_a_page_has_neither_paper_nor_positions(tmp_path: Any, run: Run) -> None:
     def told(*words: str) -> tuple[object, str]:
-        with pytest.raises(SystemExit) as done:
-            main(["sheet", "nau-slider-crank", "--lang", "en", *words])
-        return done.value.code, capsys.readouterr().err
+        status, _, err = run("sheet", "nau-slider-crank", "--lang", "en", *words)
+        return status, err
 
     page, sheet = (["-o", str(tmp_path / name)] for name in ("page.html", "sheet.svg"))
     assert told(*page, "--format", "A4") == (0, "")
@@ -254,42 +252,39 @@ def test_a_page_has_neither_paper_nor_positions(tmp_path: Any, capsys: Any) -> N
 
 
 @pytest.mark.soak
-def test_a_site_has_a_page_for_every_variant_and_an_index(tmp_path: Any, capsys: Any) -> None:
+def test_a_site_has_a_page_for_every_variant_and_an_index(tmp_path: Any, run: Run) -> None:
     own = tmp_path / "own.toml"
     own.write_text(text_of("madi-gear").replace('id = "madi-gear"', 'id = "own"') + ALIKE, "utf-8")
-    with pytest.raises(SystemExit) as done:
-        main(["page", "--all", str(tmp_path / "site"), "madi-gear", str(own), "--lang", "ru", "--jobs", "1"])
+    status, _, err = run("page", "--all", tmp_path / "site", "madi-gear", own, "--lang", "ru", "--jobs", "1")
 
     index = (tmp_path / "site" / "index.html").read_text("utf-8")
     links = re.findall(r'href="([^"]+)"', index)
-    assert (done.value.code, capsys.readouterr().err) == (0, "")
+    assert (status, err) == (0, "")
     assert '<html lang="ru">' in index
     assert links == ["madi-gear/17.html", "own/17.html", "own/1-7.html", "own/1-7-2.html"]
     assert all('<html lang="ru">' in (tmp_path / "site" / link).read_text("utf-8") for link in links)
     assert (tmp_path / "site" / links[0]).read_text("utf-8") == page_of("madi-gear", "ru")
 
 
-def test_a_site_is_bounded_and_says_what_it_could_not_draw(tmp_path: Any, monkeypatch: Any, capsys: Any) -> None:
+def test_a_site_is_bounded_and_says_what_it_could_not_draw(tmp_path: Any, monkeypatch: Any, run: Run) -> None:
     monkeypatch.setattr("kulman.variants.batches.site.MOST", 3)
-    with pytest.raises(SystemExit) as refused:
-        main(["page", "--all", str(tmp_path / "site"), "nau-slider-crank", "--lang", "en"])
-    assert refused.value.code == 2
-    assert capsys.readouterr().err == "11 pages, 3 at most: name the tasks of the site\n"
+    status, _, err = run("page", "--all", tmp_path / "site", "nau-slider-crank", "--lang", "en")
+    assert status == 2
+    assert err == "11 pages, 3 at most: name the tasks of the site\n"
     assert not (tmp_path / "site").exists()
 
 
-def test_a_site_says_which_pages_it_could_not_make(tmp_path: Any, monkeypatch: Any, capsys: Any) -> None:
+def test_a_site_says_which_pages_it_could_not_make(tmp_path: Any, monkeypatch: Any, run: Run) -> None:
     def broken(case: Case) -> str:
         if case.variant == "4":
             raise InputError("kind-without", task="x", text="y")
         return "page"
 
     monkeypatch.setattr("kulman.variants.batches.site.page_of", broken)
-    with pytest.raises(SystemExit) as done:
-        main(["page", "--all", str(tmp_path / "site"), "nau-slider-crank", "--lang", "en", "--jobs", "1"])
+    status, _, said = run("page", "--all", tmp_path / "site", "nau-slider-crank", "--lang", "en", "--jobs", "1")
 
-    index, said = (tmp_path / "site" / "index.html").read_text("utf-8"), capsys.readouterr().err
-    assert done.value.code == 2
+    index = (tmp_path / "site" / "index.html").read_text("utf-8")
+    assert status == 2
     assert said.startswith("nau-slider-crank 4: ")
     assert said.endswith("pages that could not be made: 1\n")
     assert "nau-slider-crank/3.html" in index
