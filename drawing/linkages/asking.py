@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterator
+from itertools import chain
 from typing import TypeAlias
 
 from ...plans.linkages.compound import found_here
@@ -90,7 +91,7 @@ def _of_length(mechanism: Mechanism, words: Words, name: str) -> Told:
 
 
 def _of_link(mechanism: Mechanism, words: Words, name: str) -> Told:
-    links = [link for link in mechanism.links if name in (*link.givens, *_coordinates(link))]
+    links = [link for link in mechanism.links if name in (*link.givens, *chain.from_iterable(_places(link).values()))]
     if not links:
         return NOTHING
     link, numbers = links[0], words.listed([str(link.number) for link in links])
@@ -105,10 +106,6 @@ def _of_link(mechanism: Mechanism, words: Words, name: str) -> Told:
 
 def _places(link: Link) -> dict[str, tuple[str, ...]]:
     return {point: tuple(map(positive, at)) for point, at in link.points.items()}
-
-
-def _coordinates(link: Link) -> list[str]:
-    return [xy for at in _places(link).values() for xy in at]
 
 
 def _of_place(mechanism: Mechanism, words: Words, name: str) -> Told:

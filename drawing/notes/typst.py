@@ -340,7 +340,8 @@ def _sentence(markup: str) -> str:
 def _formula(node: note.Node, upright: bool = False) -> str:
     """Return a node within a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(node, note.Plain):
-        slanted = _is_letter(node.text) and not upright
+        letter = node.text.rstrip("′″")
+        slanted = len(letter) == 1 and letter.isalpha() and not upright
         return f"italic({_quoted(node.text)})" if slanted else _quoted(node.text)
     if isinstance(node, note.Ruled):
         inner = " ".join(map(_formula, node.parts)) or '""'
@@ -366,8 +367,3 @@ def _text(plain: str) -> str:
 
 def _quoted(text: str) -> str:
     return json.dumps(note.printable(text), ensure_ascii=False)
-
-
-def _is_letter(text: str) -> bool:
-    """Whether a text is one letter, with its primes: a symbol, which is slanted."""
-    return len(bare := text.rstrip("′″")) == 1 and bare.isalpha()

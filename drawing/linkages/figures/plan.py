@@ -206,11 +206,6 @@ def _together(first: list[Vector], clusters: Sequence[list[Vector]], widest: flo
     return shown
 
 
-def _details(plans: Iterable[Plan]) -> int:
-    """Count the insets of plans."""
-    return sum(len(plan.windows()) for plan in plans)
-
-
 def with_insets(
     canvas: Canvas,
     name: str,
@@ -402,7 +397,7 @@ def plan_view(scene: Scene, plan: str) -> View:
     for i in range(0, len(said_short), EACH):
         notes.append(words["said.short"].format(vectors=", ".join(said_short[i : i + EACH])))
     kin = [p for p in scene.solved.program.plans if role(p).kind == FORCES]  # a sheet has each numeral once
-    numeral = NUMERALS[_details(Plan(scene, other) for other in kin[: kin.index(plan)])] if shown else ""
+    numeral = NUMERALS[sum(len(Plan(scene, other).windows()) for other in kin[: kin.index(plan)])] if shown else ""
     for window in shown:
         if symbols := dict.fromkeys(map(scene.letter, forces.read_in(window))):
             notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=numeral))
