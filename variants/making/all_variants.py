@@ -23,7 +23,7 @@ from ..case import Settings, Wanted
 from ..crew import Advance
 from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, is_arm_of_lever, keyed
-from ..marking.report import DIGITS, STYLE, scripts
+from ..marking.report import DIGITS, page, scripts
 from ..marking.wording import plain, texts
 from ..tables import FILES, Cell, Result, Table, aligned
 from ..task import AnyTask
@@ -137,9 +137,8 @@ class AllVariants(Result):
         title = escape(f"{texts(self._language)['key.title']}: {request.task.title[self._language]}")
         each = math.ceil(len(variants) / math.ceil(len(variants) / ACROSS))
         parts = (variants[i : i + each] for i in range(0, len(variants), each))
-        body = "".join(f"<section><h1>{title}</h1>{self._sheet(shown)}</section>" for shown in parts)
-        head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}{PAGE_STYLE}</style>'
-        return f'<!DOCTYPE html>\n<html lang="{self._language}"><head>{head}</head><body>{body}</body></html>\n'
+        sections = (f"<section><h1>{title}</h1>{self._sheet(shown)}</section>" for shown in parts)
+        return page(title, self._language, *sections, style=PAGE_STYLE)
 
     def _sheet(self, variants: Sequence[str]) -> str:
         """Return a table of some variants."""

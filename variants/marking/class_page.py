@@ -13,7 +13,7 @@ from ..roster import Entry
 from .figures import plan_figures
 from .keyed import Rubric
 from .marked import Marked
-from .report import STYLE, scripts
+from .report import page, scripts
 from .result import Lines, Result, class_lines, commonest, flags_of, marked_of, names_of, shared
 from .wording import heads, mistake_texts, texts
 
@@ -46,12 +46,11 @@ class ClassPage:
 
     def html(self) -> str:
         """Return the page; every text in it is escaped, and it loads nothing."""
-        title = escape(f"{self.said['class.title']}: {self.request.task.title[self.request.language]}")
-        head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}{OWN_STYLE}</style>'
-        *_, whole = class_lines(self.lines, self.request.language)
-        body = "".join((f"<h1>{title}</h1><p class='first'>{escape(whole)}</p>", *self._parts()))
         language = self.request.language
-        return f'<!DOCTYPE html>\n<html lang="{language}"><head>{head}</head><body>{body}</body></html>\n'
+        title = escape(f"{self.said['class.title']}: {self.request.task.title[language]}")
+        *_, whole = class_lines(self.lines, language)
+        head = f"<h1>{title}</h1><p class='first'>{escape(whole)}</p>"
+        return page(title, language, head, *self._parts(), style=OWN_STYLE)
 
     def _parts(self) -> Iterator[str]:
         yield self._section("class.marks", self._distribution())

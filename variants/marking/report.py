@@ -358,9 +358,13 @@ svg text{font:3.5px Arial,sans-serif}svg text.wrong{fill:#d55e00}
 def report_html(report: Report) -> str:
     """Return the report as a page; every text in it is escaped, and it loads nothing."""
     title = escape(f"{report.said['report.title']}: {report.title}")
-    head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
-    body = "".join(_body(report, report.said))
-    return f'<!DOCTYPE html>\n<html lang="{report.language}"><head>{head}</head><body>{body}</body></html>\n'
+    return page(title, report.language, *_body(report, report.said))
+
+
+def page(title: str, language: str, *parts: str, style: str = "") -> str:
+    """Return a page that looks as reports do, with a `style` of its own; title and parts are HTML already."""
+    head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}{style}</style>'
+    return f'<!DOCTYPE html>\n<html lang="{language}"><head>{head}</head><body>{"".join(parts)}</body></html>\n'
 
 
 def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
@@ -386,17 +390,16 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
             shown = (f"<td{' class=v' * (i == VERDICT)}>{cells[i]}</td>" for i in columns)
             yield f'<tr class="{row.line.verdict}">{"".join(shown)}</tr>'
         yield "</table></section>"
+    sources, heading = list[str](), escape(said["report.drawing"])
     if report.marked.sheets is not None:
         from ..photos.returned import pictures
 
-        heading = escape(said["report.drawing"])
-        for source in pictures(report.marked, report.language, report.own):
-            yield f'<section><h2>{heading}</h2><img class="drawing" alt="{heading}" src="{source}"></section>'
+        sources = [*pictures(report.marked, report.language, report.own)]
     elif report.marked.seen is not None:
         from .overlay import picture
 
-        source = picture(report.marked, report.language, report.own)
-        heading = escape(said["report.drawing"])
+        sources = [picture(report.marked, report.language, report.own)]
+    for source in sources:
         yield f'<section><h2>{heading}</h2><img class="drawing" alt="{heading}" src="{source}"></section>'
     figures = [] if report.own else list(plan_figures(report.marked, report.language))
     if figures:
