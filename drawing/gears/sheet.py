@@ -44,6 +44,11 @@ def _near_ladder(solved: SolvedGear, least: float = 0.0) -> tuple[float, ...]:
     return _standard(From(max(_finest(solved), least)).ladder(lambda _: solved.sizes["a_w"]))
 
 
+def _rolled_ladder(solved: SolvedGear) -> tuple[float, ...]:
+    """Return the scale factors of the construction of the involutes and of the line of action straightened."""
+    return _near_ladder(solved, _standard(steps(solved.sizes["l_N1N2"] / LONGEST))[0])
+
+
 def _finest(solved: SolvedGear) -> float:
     most = solved.sizes["h"] / TOOTH
     return max(mu for mu in _standard(steps(most / 10.0)) if mu <= most * (1.0 + 1e-9))
@@ -78,8 +83,7 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
         ladders = {
             "mu_l": _mu_ladder(solved, contents.choosers),
             "near": _near_ladder(solved),
-            # of the construction of the involutes, and of the line of action straightened
-            "rolled": _near_ladder(solved, _standard(steps(solved.sizes["l_N1N2"] / LONGEST))[0]),
+            "rolled": _rolled_ladder(solved),
             "part": _parts_of(contents.plans),
         }
         super().__init__(contents, lettered(contents.words), ladders)
