@@ -170,6 +170,11 @@ class Depth:
     together: Cost
 
 
+def _parts_of(program: Program) -> dict[str, str]:
+    """Return the forces and moments of masses that a program lays down, each with its kind."""
+    return {step.name: KINDS[step.law] for step in program if step.law in KINDS}
+
+
 def _without(program: Program, parts: Collection[str]) -> Program:
     """Return a program that lays down these forces and moments with a size of zero; loads may be among them."""
     nothing = {step: step.but(operands=(ZERO, *step.operands[1:])) for step in program if step.name in parts}
@@ -222,8 +227,7 @@ def depth(cycle: Cycle, tolerance: float) -> Depth:
 
     The `tolerance` is per cent of the largest balance and of the largest reaction that may be missed.
     """
-    # the forces and moments of masses that are laid down, each with its kind
-    model, kinds = _Model(cycle), {step.name: KINDS[step.law] for step in cycle.program if step.law in KINDS}
+    model, kinds = _Model(cycle), _parts_of(cycle.program)
     single = [model.cost(part, (part,)) for part in kinds]
     groups = {kind: tuple(part for part, of in kinds.items() if of == kind) for kind in (FORCES, MOMENTS, WEIGHTS)}
     groups |= {INERTIA: groups[FORCES] + groups[MOMENTS], ALL: tuple(kinds)}
