@@ -18,7 +18,7 @@ from .raster import Convex, Flags, Numbers, Points, Reals
 from .spots import Obstacles, Request, Segment, Surroundings, Wanted
 from .text import Box
 
-APART = 1.4  # mm that should be left between two labels side by side, beyond the gap around each
+APART = 1.4  # mm that should be left between two labels, beyond the gap around each, lest they read as one
 BAR = 1.2  # mm between a label and the leader of another, which nearer would look like a bar over or under it
 SOME = 120  # leaders, the cheapest for their own sake, that are looked at
 AGAIN = 4  # times that all labels are placed anew when some found no place; the last time leaders may cross lines
@@ -224,7 +224,8 @@ class Scene:
 
     def _turned(self, i: int, at: Points, e: complex) -> _Ways:
         """Return label i at places along its segment, in the direction `e`: there it is a stroke as wide as itself."""
-        start, end, half, gap = at - self.wanted.hw[i] * e, at + self.wanted.hw[i] * e, self.wanted.hh[i], self.gap
+        start, end, half = at - self.wanted.hw[i] * e, at + self.wanted.hw[i] * e, self.wanted.hh[i]
+        gap = self.gap + APART * self.requests[i].optional
         strokes, line = Convex.of(start, end), lines(start, end)[:, None]
         strokes.radius[:] = half
 
@@ -315,6 +316,11 @@ class _Board:
         for _ in range(ROUNDS):  # give each label in trouble a place by moving those that block it
             if not [i for i in self.in_trouble() if self._improve(i)]:
                 break
+        # who reads as one with another chose before that one, and chooses again
+        for i in self._read_as_one():
+            cost, k = self._best(i)
+            if cost < self._here(i):
+                self._put(i, k)
         # set apart, on leaders, who found no free place or whom a thin line would run through, but for those that find
         # no free place there either; of two labels that touch one may stay: the less important is taken up first
         bad = self.in_trouble()
@@ -326,6 +332,9 @@ class _Board:
         for i in self._crossed() * 2:  # who moves may leave room for another
             if i not in self.leaders and i not in self.angles:
                 self._apart(i, spots.THIN, False, False)
+        for i in self._read_as_one():
+            if self._here(i) > spots.ONE:  # the other one may have gone
+                self._led(i, (False, False), self._here(i))
         self.failed = self.in_trouble()
         if not self._optional:
             self.cost = scene.grid.cost  # nobody is placed any more: orders are many, and are kept
@@ -351,9 +360,9 @@ class _Board:
         if self.wanted.a[i] != self.wanted.b[i] and self._turned(i):
             return True
         cost, k = self._best(i)
-        if cost < spots.THIN:
+        if cost < spots.ONE:
             self._put(i, k)
-        return cost < spots.THIN
+        return cost < spots.ONE
 
     def _crossed(self) -> list[int]:
         """Labels through which a thin line runs, or which are in doubt; those whose leaders cross lines."""
@@ -371,15 +380,15 @@ class _Board:
         return labels
 
     def _beside(self, i: int, x: Reals, y: Reals, near: Numbers) -> tuple[Flags, Flags]:
-        """Tell, shape (K, N), which of the labels `near` label i would touch at x, y, and which also stand beside it.
+        """Tell, shape (K, N), which of the labels `near` label i would touch at x, y, and which are close to it.
 
-        Two letters side by side read as one word.
+        Two letters side by side read as one word, one over another as a fraction.
         """
         w = self.wanted
         wide, high = w.hw[near] + (w.hw[i] + self.gap - spots.SLACK), w.hh[near] + (w.hh[i] + self.gap - spots.SLACK)
-        level = abs(y[:, None] - self.now_y[near]) < high
-        across = abs(x[:, None] - self.now_x[near])
-        return level & (across < wide), level & (across < wide + APART)
+        across, up = abs(x[:, None] - self.now_x[near]), abs(y[:, None] - self.now_y[near])
+        over = (across < np.maximum(w.hw[near], w.hw[i])) & (up < high + APART)
+        return (up < high) & (across < wide), (up < high) & (across < wide + APART) | over
 
     def _among(self, i: int) -> tuple[Reals, Flags, Numbers]:
         """Return what places of label i cost among the others, which of these it would touch there, who they are."""
@@ -388,7 +397,7 @@ class _Board:
             return self.cost[i], np.zeros((len(self.cost[i]), 0), dtype=bool), near
         touched, close = self._beside(i, self.x[i], self.y[i], near)
         cost = self.cost[i] + spots.COVER * touched.sum(axis=1)
-        cost += spots.CLOSE * close.sum(axis=1)
+        cost += spots.ONE * close.sum(axis=1)
         return cost, touched, near
 
     def _best(self, i: int) -> tuple[float, int]:
@@ -396,6 +405,18 @@ class _Board:
         cost = self._among(i)[0]
         k = int(cost.argmin())
         return float(cost[k]), k
+
+    def _read_as_one(self) -> list[int]:
+        """Labels that stand close to another one, but for those set apart."""
+        close = self._touching(APART, 0.0) & self.down & self.down[:, None]
+        labels: list[int] = (close.sum(axis=1) > 1).nonzero()[0].tolist()
+        return [i for i in labels if i not in self.leaders and i not in self.angles]
+
+    def _here(self, i: int) -> float:
+        """Return what it costs label i among the others to stay where it is."""
+        own, near = slice(i, i + 1), self._near(i, self.scene.low[i], self.scene.high[i])
+        touched, close = self._beside(i, self.now_x[own], self.now_y[own], near)
+        return float(self.now[i] + spots.COVER * touched.sum() + spots.ONE * close.sum()) - spots.SLACK
 
     def _put(self, i: int, k: int) -> None:
         self.now_x[i], self.now_y[i], self.now[i] = self.x[i, k], self.y[i, k], self.cost[i, k]
@@ -405,7 +426,7 @@ class _Board:
         """Tell, shape (L, L), which labels touch one another, or stand less than `apart` beside one another."""
         w = self.wanted
         touch: Flags = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + self.gap + apart - slack
-        touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + self.gap - slack
+        touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + self.gap + apart - slack
         return touch
 
     def in_trouble(self) -> list[int]:
@@ -538,7 +559,7 @@ class _Board:
         """Return what it costs that label i stands on leaders close to others `near`, or these cross other leaders."""
         at, head, start, way = leads
         _, close = self._beside(i, at.real, at.imag, near)
-        cost: Reals = spots.CLOSE * close.sum(axis=1) + self._across(start + spots.TOUCH * way, head)
+        cost: Reals = spots.ONE * close.sum(axis=1) + self._across(start + spots.TOUCH * way, head)
         return cost
 
     def _across(self, start: Points, head: Points) -> Reals:

@@ -283,6 +283,22 @@ def test_a_label_on_a_leader_does_not_read_as_one_word_with_another() -> None:
     assert close <= leads / 20
 
 
+def test_letters_read_neither_as_one_word_nor_as_a_fraction() -> None:
+    letters, close = 0, 0
+    for seed in range(40):
+        requests, obstacles = random_scene(seed, labels=30, strokes=30)
+        labels = place(requests, obstacles, GAP)
+        upright = [r for r in requests if r.name not in labels.angles]
+        boxes, letters = shapely.bounds(boxes_of(upright, labels)), letters + len(upright)
+        size, (low, high) = boxes[:, 2:] - boxes[:, :2], (boxes[:, :2], boxes[:, 2:])
+        shared = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)  # negative: the gap between two
+        along = shared > 0.5 * np.minimum(size[:, None], size)
+        near = (along & (shared[..., ::-1] > -1.5)).any(axis=-1)
+        close += int(np.triu(near, 1).sum())
+    assert letters > 1000
+    assert close <= letters / 200
+
+
 def velocity_plan(seed: int) -> tuple[list[Request], Obstacles]:
     """A pole, four absolute velocities and the relative ones between neighbours, as on a sheet."""
     r = random.Random(seed)
