@@ -94,7 +94,8 @@ def lever_faults(view: View, lang: str) -> Iterator[str]:
         numbers_of(" ".join((force, arm, moment)), lang)
         if "–" not in (force, arm) and not recomputes(value(force) * value(arm), moment):
             yield f"{symbol}: {force}·{arm} is not {moment}"
-        if (sense == "–") != (value(moment) == 0.0):
+        turns = value(moment) != 0.0 or ("–" not in (force, arm) and value(force) * value(arm) != 0.0)
+        if (sense == "–") == turns or (value(moment) == 0.0) == turns:
             yield f"{symbol}: the sense of {moment} is {sense}"
 
 

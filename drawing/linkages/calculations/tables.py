@@ -218,8 +218,11 @@ def _lever_rows(scene: Scene, part: Part) -> list[list[str]]:
     decimals = decimals_for(max(abs(one.moment) for one in hung), DIGITS + 1)
     for one in (one for one in hung if one.name in part.names):
         arm = [none, none] if one.arm is None else [one.arm.symbol, one.arm.text(words)]
-        sense = _turning(scene, round(one.moment, decimals)) or none
-        rows.append([one.symbol, one.size, *arm, words.number(abs(one.moment), decimals), sense])
+        # what the others outweigh by far has a digit and its sense, as it has in the equation
+        places = decimals if round(one.moment, decimals) else decimals_for(one.moment, 1)
+        rows.append(
+            [one.symbol, one.size, *arm, words.number(abs(one.moment), places), _turning(scene, one.moment) or none]
+        )
     return rows
 
 
