@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from kulman.tests.support.jacobian_solver import cross, dot
 from kulman.tests.support.mechanisms import (
     GENERAL_LENGTHS,
     SEED,
@@ -25,14 +26,6 @@ LOADS = {
 REACTIONS = {1: (("R_01", "O"), ("R_21", "A")), 2: (("R_12", "A"), ("R_32", "B")), 3: (("R_23", "B"), ("R_03", "B"))}
 # in the laws of a scaled mechanism lengths, loads and moments of inertia grow by k, k and k^2
 POWERS = {"omega": 0, "epsilon": 0, "e": 0, "n": 0, "u": 0, "delta": 0, "M": 2}
-
-
-def dot(u: Any, w: Any) -> Any:
-    return (np.conj(u) * w).real
-
-
-def cross(u: Any, w: Any) -> Any:
-    return (np.conj(u) * w).imag
 
 
 def vanish(value: Any, *parts: Any) -> bool:

@@ -39,7 +39,7 @@ from kulman.tests.support.cam_points import (
 )
 from kulman.tests.support.cams import ROCKER
 from kulman.tests.support.cases import some
-from kulman.tests.support.readback import Sheet, View, angle, cross, polygon, read
+from kulman.tests.support.readback import Sheet, View, angle, cross, polygon, read, read_back
 from kulman.variants.kinds.cam import RULES
 
 MADI = CamCase()
@@ -220,7 +220,7 @@ def test_no_line_runs_through_a_letter_among_the_positions_of_a_cam(seed: int) -
         "rotation": chance.choice(("cw", "ccw")),
     }
     drawn = sheet("madi-cam", set=changes, only="profile", lang=chance.choice(("uk", "ru", "en")), format="A1")
-    views = [v for page in read(*(drawn.svg(n + 1) for n in range(len(drawn.pages)))).pages for v in page.all]
+    views = [v for page in read_back(drawn).pages for v in page.all]
 
     struck = [(v.name, text.string, line.role) for v in views if v.name for text, line in thin_faults(v)]
 

@@ -25,7 +25,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.support.cam_points import MU_D2S, MU_DS, MU_S, MU_S_D2S, MU_S_DS, measured, printed_scales
 from kulman.tests.support.cams import ROCKER
 from kulman.tests.support.printed_numbers import lines_of
-from kulman.tests.support.readback import read
+from kulman.tests.support.readback import read, read_back
 from kulman.variants.sheets import Sheet
 from kulman.variants.solution import Solution
 from kulman.variants.sweeps.sweeps import CourseSweep
@@ -253,7 +253,7 @@ def test_a_small_sheet_is_one_of_smaller_drawn_lengths(small: Solution, solution
 
 
 def test_a_small_sheet_prints_what_is_solved_for_it_and_says_that_it_is_smaller(small: Solution, drawn: Sheet) -> None:
-    views = read(*(drawn.svg(page) for page in range(1, len(drawn.pages) + 1)))
+    views = read_back(drawn)
     diagrams = {MU_S: "mu_s", MU_DS: "mu_ds", MU_D2S: "mu_d2s"}
     for view, own in (("diagrams", diagrams), ("sizes", {MU_S_DS: "mu_s_ds"}), ("plate_sizes", {MU_S_D2S: "mu_s_d2s"})):
         printed = printed_scales(views[view])

@@ -28,7 +28,7 @@ from kulman.tests.support.gear_points import (
     rows,
     scale,
 )
-from kulman.tests.support.readback import polygon, read
+from kulman.tests.support.readback import polygon, read, read_back
 
 SEED = 1532
 PARTS = "geometry,sliding"
@@ -274,7 +274,7 @@ def test_no_circle_or_ray_runs_through_a_letter_of_the_meshing_of_a_random_pair(
     }
     language = chance.choice(("uk", "ru", "en"))
     drawn = sheet("madi-gear", set=changes, only="meshing", lang=language, format="A1")
-    views = [v for page in read(*(drawn.svg(n + 1) for n in range(len(drawn.pages)))).pages for v in page.all]
+    views = [v for page in read_back(drawn).pages for v in page.all]
 
     struck = [
         (view.name, text.string, line.role)

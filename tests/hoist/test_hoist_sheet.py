@@ -17,7 +17,7 @@ from kulman.tests.sheets.judge import overlaps, thin_faults
 from kulman.tests.support.cam_points import node, printed_scales
 from kulman.tests.support.hoists import VARIANTS, together, two_sided
 from kulman.tests.support.printed_numbers import half_digit
-from kulman.tests.support.readback import Sheet, Stroke, View, read
+from kulman.tests.support.readback import Sheet, Stroke, View, read, read_back
 from kulman.variants.sheets import Sheet as Drawing
 
 
@@ -66,7 +66,7 @@ def test_the_crossing_of_a_hoist_is_drawn_larger_where_the_diagram_has_room() ->
 )
 def test_letter_of_the_parabola_does_not_stand_among_the_numbers_of_the_axis(variant: str, paper: str) -> None:
     drawing = sheet("karpenko-hoist", variant, format=paper)
-    view = read(*(drawing.svg(k + 1) for k in range(len(drawing.pages))))["lift_off"]
+    view = read_back(drawing)["lift_off"]
     (foot,) = (line.points[0].imag for line in view.lines("scale"))
 
     letters = [
@@ -99,7 +99,7 @@ class HoistCase:
 
     @cached_property
     def sheet(self) -> Sheet:
-        return read(*(self.drawn.svg(number) for number in range(1, len(self.drawn.pages) + 1)))
+        return read_back(self.drawn)
 
     @cached_property
     def values(self) -> dict[str, float]:

@@ -24,6 +24,7 @@ from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import Candidate, explain
 from kulman.plans.mistakes.rules import BY_SCALE, MISTAKES, Broken, Scene
 from kulman.tests.support.cams import MADI, ROCKER, keyed_cam
+from kulman.tests.support.jacobian_solver import cross, dot
 from kulman.tests.support.marking_cases import mistakes
 from kulman.tests.support.mechanisms import ORIGIN
 
@@ -41,14 +42,6 @@ class Motion:
     v: float
     epsilon: float
     a: float
-
-
-def cross(u: complex, w: complex) -> float:
-    return u.real * w.imag - u.imag * w.real
-
-
-def dot(u: complex, w: complex) -> float:
-    return u.real * w.real + u.imag * w.imag
 
 
 def rod(

@@ -22,7 +22,7 @@ import numpy as np
 import shapely
 import shapely.ops
 
-from kulman.tests.support.readback import Page, Ring, Sheet, Stroke, Text, View, boxes, polygon, read
+from kulman.tests.support.readback import Page, Ring, Sheet, Stroke, Text, View, boxes, polygon, read, read_back
 
 TINY = 1e-6
 VISIBLE = 0.1  # mm by which a letter must be nearer to a foreign thing to be taken for its letter
@@ -454,8 +454,7 @@ def _sheets(asked: argparse.Namespace) -> Iterator[tuple[str, Sheet]]:
         for variant in variants:
             for language in asked.lang.split(","):
                 drawn = kulman.sheet(task, variant, lang=language, format=asked.format)
-                pages = (drawn.svg(number + 1) for number in range(len(drawn.pages)))
-                yield f"{task} {variant} {language}", read(*pages)
+                yield f"{task} {variant} {language}", read_back(drawn)
 
 
 def main() -> int:

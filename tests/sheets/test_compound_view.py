@@ -12,7 +12,7 @@ from kulman.plans.linkages.chain import hinged
 from kulman.plans.linkages.compound import COMPOUND, Coupler
 from kulman.scales.errors import InputError
 from kulman.tests.sheets.judge import overlaps, thin_faults
-from kulman.tests.support.readback import Sheet, View, angle, parallel, read
+from kulman.tests.support.readback import Sheet, View, angle, parallel, read, read_back
 from kulman.variants.solution import Solution
 
 NEAR = 0.01  # mm
@@ -24,7 +24,7 @@ LANGUAGES = ["uk", *(pytest.param(lang, marks=pytest.mark.soak) for lang in ("ru
 @lru_cache(maxsize=8)
 def drawn(task: str, lang: str = "uk", format: str | None = None) -> Sheet:
     found = sheet(task, lang=lang, only="compound", format=format)
-    return read(*(found.svg(page + 1) for page in range(len(found.pages))))
+    return read_back(found)
 
 
 @lru_cache(maxsize=8)
@@ -166,7 +166,7 @@ def test_senses_of_turning_are_those_of_the_rates() -> None:
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_nothing_touches_on_the_sheet_of_the_seed(lang: str) -> None:
     found = sheet("bertyaev-six-bar", lang=lang)
-    page = read(*(found.svg(number + 1) for number in range(len(found.pages))))
+    page = read_back(found)
 
     assert overlaps(page) == []
     assert [t.string for p in page.pages for v in p.all if "compound" in v.name for t, _ in thin_faults(v)] == []

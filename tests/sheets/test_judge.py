@@ -17,7 +17,7 @@ from kulman.tests.sheets.judge import KINDS, Finding, faults, judged
 from kulman.tests.support.cases import as_drawn, other_lengths, same_scales, some
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import linkage_faults
-from kulman.tests.support.readback import Sheet, read
+from kulman.tests.support.readback import Sheet, read, read_back
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
@@ -180,7 +180,7 @@ SHORT = {
 
 def sheet_of(task: str, variant: str | None = None, language: str = "uk", format: str | None = None) -> Sheet:
     drawn = kulman.sheet(task, variant, lang=language, format=format)
-    return read(*(drawn.svg(number + 1) for number in range(len(drawn.pages))))
+    return read_back(drawn)
 
 
 @pytest.mark.soak

@@ -33,7 +33,7 @@ from kulman.tests.support.cases import some
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import Faults, Judged, l1_plan, l5_similarity, l7_senses
 from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
-from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, parallel, read
+from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, parallel, read, read_back
 from kulman.tests.support.sheet_geometry import NEAR, crosses, same
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet as Drawn
@@ -47,7 +47,7 @@ FORCES = "velocity,acceleration,forces"
 def drawn(task: str, only: str = "position", lang: str = "uk") -> tuple[Drawn, Sheet]:
     """A sheet of A1, and what is read back of it."""
     found = sheet(task, only=only, format="A1", lang=lang)
-    return found, read(*(found.svg(number) for number in range(1, len(found.pages) + 1)))
+    return found, read_back(found)
 
 
 def position(task: str, only: str = "position") -> View:
@@ -668,7 +668,7 @@ def test_load_diagram_is_drawn_to_its_scales(task: str, name: str, load: str) ->
 @cache
 def cycle_sheet(task: str = "nau-slider-crank") -> Sheet:
     figures = kulman.sweep(task, positions=12).drawn()
-    return read(*(figures.svg(number) for number in range(1, len(figures.pages) + 1)))
+    return read_back(figures)
 
 
 def labels(view: str) -> list[str]:

@@ -27,7 +27,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, some, vectors
 from kulman.tests.support.chains import chain
 from kulman.tests.support.printed_numbers import decimal
-from kulman.tests.support.readback import read
+from kulman.tests.support.readback import read, read_back, svgs
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import Request
 from kulman.variants.marking.keyed import Rubric, keyed
@@ -304,7 +304,7 @@ def test_a_mechanism_on_which_nothing_acts_is_drawn() -> None:
 
     drawn = kulman.sheet("nau-slider-crank", "3", set=nothing, lang="en")
 
-    svg = "".join(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
+    svg = "".join(svgs(drawn))
     assert not re.search(r"nan|\binf\b", svg)
     assert {vector.value for vector in vectors(drawn.pages[0].shapes) if vector.quantity[0] in "FR"} <= {0.0}
 
@@ -351,7 +351,7 @@ POSITIONS = {
 def texts_of(task: str, language: str, **settings: str | float) -> list[str]:
     """Return the lines of text of a sheet, letters with their indices."""
     drawn = kulman.sheet(task, set=settings, only=PLANS, lang=language)
-    pages = read(*(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))).pages
+    pages = read_back(drawn).pages
     return [text.string for page in pages for view in page.all for text in view.texts]
 
 

@@ -18,7 +18,7 @@ from kulman import sheet, solve
 from kulman.plans.cams.solve import SolvedCam
 from kulman.tests.sheets.judge import text_faults, view_faults
 from kulman.tests.support.printed_numbers import equation_faults, lines_of
-from kulman.tests.support.readback import Sheet, Stroke, View, angle, cross, polygon, read
+from kulman.tests.support.readback import Sheet, Stroke, View, angle, cross, polygon, read, svgs
 
 NEAR, STEEP = 0.01, 0.05  # mm, degrees
 Faults = Iterator[str]
@@ -52,7 +52,7 @@ class CamCase:
     def pages(self) -> tuple[str, ...]:
         changes = dict(self.changes) or None
         drawn = sheet(self.task, set=changes, only=self.only, format=self.format, lang=self.lang)
-        return tuple(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
+        return tuple(svgs(drawn))
 
     @cached_property
     def sheet(self) -> Sheet:

@@ -15,7 +15,7 @@ from kulman import sheet
 from kulman.plans.gears.teeth import meshing_of
 from kulman.scales.scale import SERIES
 from kulman.tests.support.gears import madi, second_route
-from kulman.tests.support.readback import Sheet, Stroke, Text, View, angle, cross, polygon, read
+from kulman.tests.support.readback import Sheet, Stroke, Text, View, angle, cross, polygon, read, svgs
 from kulman.tests.support.sheet_geometry import NEAR, unless
 from kulman.variants.sheets import Sheet as Drawing
 
@@ -52,7 +52,7 @@ class GearCase:
 
     @cached_property
     def pages(self) -> tuple[str, ...]:
-        return tuple(self.drawn.svg(number) for number in range(1, len(self.drawn.pages) + 1))
+        return tuple(svgs(self.drawn))
 
     @cached_property
     def sheet(self) -> Sheet:

@@ -13,6 +13,8 @@ from typing import Any
 
 from lxml import etree
 
+from kulman.tests.support.readback import cross
+
 LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^{}\W_]+\}|_[^\W_])?")
 TOKEN = re.compile(
     rf"""\s*(?:(?P<text>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:E[+-]?\d+)?)|(?P<name>{LABEL.pattern})"""
@@ -46,10 +48,6 @@ RESERVED = CONSTANTS | {
 }
 Line = tuple[complex, complex]  # a point, a direction
 Circle = tuple[complex, float]
-
-
-def cross(u: complex, w: complex) -> float:
-    return (u.conjugate() * w).imag
 
 
 def divided(value: Any, by: float) -> Any:

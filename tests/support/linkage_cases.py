@@ -14,7 +14,7 @@ from kulman import sheet, solve
 from kulman.plans.linkages.chain import moving_bodies
 from kulman.plans.linkages.mechanism import FRAME, Mechanism, Revolute
 from kulman.tests.support.jacobian_solver import JacobianSolver
-from kulman.tests.support.readback import Sheet, read
+from kulman.tests.support.readback import Sheet, read_back
 from kulman.variants.sheets import Sheet as DrawnSheet
 from kulman.variants.solution import Solution
 
@@ -58,7 +58,7 @@ def _drawn(case: Linkage) -> DrawnSheet:
 
 @lru_cache(maxsize=32)
 def _read(case: Linkage) -> Sheet:
-    return read(*(case.drawn.svg(number) for number in range(1, len(case.drawn.pages) + 1)))
+    return read_back(case.drawn)
 
 
 @lru_cache(maxsize=64)

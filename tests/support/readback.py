@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import shapely
@@ -318,6 +319,16 @@ def _below(view: View, number: int) -> list[Text]:
 
 def _moved(run: Run, by: complex) -> Run:
     return replace(run, at=run.at + by, corners=tuple(corner + by for corner in run.corners))
+
+
+def svgs(drawn: Any) -> list[str]:
+    """Return the pages of what has been drawn, as SVG."""
+    return [drawn.svg(number) for number in range(1, len(drawn.pages) + 1)]
+
+
+def read_back(drawn: Any) -> Sheet:
+    """Return a sheet as it is read of its pages."""
+    return read(*svgs(drawn))
 
 
 def read(*svgs: str | bytes) -> Sheet:

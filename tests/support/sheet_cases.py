@@ -11,7 +11,7 @@ from functools import lru_cache
 from kulman import sheet, solve
 from kulman.tests.support.linkage_cases import Oracle
 from kulman.tests.support.mechanisms import NAU_VARIANTS
-from kulman.tests.support.readback import Sheet, read
+from kulman.tests.support.readback import Sheet, read, svgs
 from kulman.variants.sheets import Sheet as DrawnSheet
 from kulman.variants.solution import Solution
 
@@ -103,7 +103,7 @@ def sheet_of(case: Case) -> DrawnSheet:
 def pages(case: Case) -> tuple[str, ...]:
     """Return the SVG of every page."""
     drawn = sheet_of(case)
-    return tuple(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
+    return tuple(svgs(drawn))
 
 
 @lru_cache(maxsize=64)
