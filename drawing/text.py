@@ -128,24 +128,25 @@ def spelled(
     scripted: Callable[[str, str], str] = str.__add__,
     ruled: Callable[[str, str], str] = lambda kind, inside: inside,
 ) -> str:
-    """Return markup in another notation; by itself nothing is left of it but its characters.
+    """Return markup in another notation.
 
-    The notation has `plain` characters so; it is told what stands above and below of what is `scripted`, of what is
-    `ruled` the kind of the rule and what it holds.
+    Characters are as `plain` writes them, what stands above and below as `scripted` writes both of them, a ruled group
+    as `ruled` writes its kind and what it holds. Without these nothing but characters is left.
 
     >>> spelled("a^{n}_{BA}"), spelled("V_{B}", scripted="<sup>{}</sup><sub>{}</sub>".format)
     ('anBA', 'V<sup></sup><sub>B</sub>')
     """
 
     def spell(pieces: Iterable[Piece]) -> str:
-        return "".join(
-            plain(piece)
-            if isinstance(piece, str)
-            else ruled(piece.kind, spell(piece.pieces))
-            if isinstance(piece, Ruling)
-            else scripted(*(spell(piece.get(sign, ())) for sign in "^_"))
-            for piece in pieces
-        )
+        parts = list[str]()
+        for piece in pieces:
+            if isinstance(piece, str):
+                parts.append(plain(piece))
+            elif isinstance(piece, Ruling):
+                parts.append(ruled(piece.kind, spell(piece.pieces)))
+            else:
+                parts.append(scripted(*(spell(piece.get(sign, ())) for sign in "^_")))
+        return "".join(parts)
 
     return spell(read(markup))
 
