@@ -22,8 +22,8 @@ from ...scales.scale import UNITS, Fixed, Scale, Segment, steps
 from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, in_any_order, last, on_one_page
 from ..extents import Rungs
 from ..figure import Figure, SheetContents
-from ..formats import FORMATS, STYLES, Format, printable, room
-from ..packing import Placement
+from ..formats import FORMATS, STYLES, Format, Norm, printable, room
+from ..packing import Placement, Size
 from ..page import DATA, STATEMENT
 from ..tables import paged, text_block
 from ..view import View, numbered
@@ -237,6 +237,12 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
             return _composed(fitting, same, sheet)
     for way, rungs, pages in ways_of(fitting.extents, whole):
         if fewest is not None and last(fewest[1][2]) < pages:
+            # one page in reading order rather than one in another order, if only the next plans are smaller
+            if pages > 1 or on_one_page(*_page(fitting, fewest[1][0], way)) or fewest[0] != way:
+                break
+            with suppress(InputError):
+                found = _on_a_page(fitting, way, rungs, mixed=False)
+                fewest = fewest if found is None else (way, found)
             break
         try:
             found = (_on_a_page if pages == 1 else partial(_on_pages, count=pages))(fitting, way, rungs)
@@ -308,12 +314,17 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | Non
     return None
 
 
-def _on_a_page(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
-    """Try one page."""
+def _on_a_page(fitting: _Fitting, sheet: Format, rungs: Rungs, mixed: bool = True) -> Found | None:
+    """Try one page, where its views have no room in reading order `mixed` ones."""
     views, taken = fitting.fitted(sheet, rungs)
-    page = [view.size for view in views], sheet, fitting.contents.norm, begins_of(views)
-    places = on_one_page(*page) or in_any_order(*page)
+    page = _page(fitting, views, sheet)
+    places = on_one_page(*page) or (in_any_order(*page) if mixed else None)
     return None if places is None else (views, taken, places)
+
+
+def _page(fitting: _Fitting, views: Sequence[View], sheet: Format) -> tuple[list[Size], Format, Norm, list[int]]:
+    """Return what tells where the views of a page have room."""
+    return [view.size for view in views], sheet, fitting.contents.norm, begins_of(views)
 
 
 def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
