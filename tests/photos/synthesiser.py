@@ -11,16 +11,13 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
-import pypdfium2
 
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Line, Shape, Vector
-from kulman.drawing.writers import page_files
 from kulman.plans.board import POSITION
 from kulman.plans.marking.ways import Shape as Way
 from kulman.plans.marking.ways import shapes_of
@@ -29,6 +26,7 @@ from kulman.variants.case import Case
 from kulman.variants.marking.checks import check
 from kulman.variants.marking.keyed import Keyed
 from kulman.variants.marking.marked import Desk
+from kulman.variants.photos.reading import rendered
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import drawing_for_print, scannable_of_case
 
@@ -110,10 +108,7 @@ def vectors_of(shapes: Any) -> Iterator[Vector]:
 def printed(sheet: Sheet, number: int) -> np.ndarray:
     """The page as it is printed, PX pixels per mm, grey from 0 to 255."""
     if number not in sheet.printed:
-        ((_, data),) = page_files([sheet.pages[number]], Path("page.pdf"))
-        page = pypdfium2.PdfDocument(data)[0]
-        grey = page.render(scale=PX * 25.4 / 72, grayscale=True).to_numpy()
-        sheet.printed[number] = grey.reshape(grey.shape[:2])
+        sheet.printed[number] = rendered(sheet.pages[number], PX, grayscale=True)[..., 0]
     return sheet.printed[number]
 
 

@@ -56,7 +56,7 @@ from kulman.variants.marking.result import Result, result_of
 from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import _times, lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
-from kulman.variants.photos.reading import _print_scale, on_page
+from kulman.variants.photos.reading import _print_scale, on_page, rendered
 from kulman.variants.photos.straight import ASTRAY, PER_MM, _fitted, framed, straightened, without_worst
 from kulman.variants.photos.traced import Pencil, ends_at, senses, traced
 from kulman.variants.roster import Who
@@ -94,6 +94,13 @@ def test_markers_are_those_of_the_dictionary() -> None:
 
     for number in range(250):
         assert np.array_equal(cv2.aruco.generateImageMarker(dictionary, number, 6) < 128, fields(number))
+
+
+def test_a_page_has_as_many_pixels_as_its_paper_is_large() -> None:
+    page = sheet_for(TASK, only=PLANS).pages[1]
+
+    for per_mm in (PER_MM, 12):
+        assert rendered(page, per_mm).shape[:2] == (round(page.height * per_mm), round(page.width * per_mm))
 
 
 def test_a_page_tells_its_number_and_its_task_but_no_answer() -> None:

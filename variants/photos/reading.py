@@ -163,13 +163,14 @@ class Sheets:
         return frozenset(plan for plan, (page, _) in printed if page not in handed_in)
 
 
-def rendered(page: Page, **how: bool) -> NDArray[np.uint8]:
-    """Return a page as pixels, `PER_MM` a mm, of shape (rows, columns, channels)."""
+def rendered(page: Page, per_mm: float = PER_MM, **how: bool) -> NDArray[np.uint8]:
+    """Return a page as pixels, so many a mm, of shape (rows, columns, channels)."""
     import pypdfium2
 
     ((_, data),) = page_files([page], Path("page.pdf"))
     document = pypdfium2.PdfDocument(data)
-    bitmap = document[0].render(scale=PER_MM * 25.4 / 72.0, **how)
+    # no row more, over which all would be stretched, where millimetres are not quite whole points
+    bitmap = document[0].render(scale=per_mm * 25.4 / 72.0 * (1.0 - 1e-6), **how)
     pixels = np.atleast_3d(bitmap.to_numpy()).copy()
     bitmap.close()  # many megabytes, which else wait for the garbage to be collected
     document.close()
