@@ -584,6 +584,23 @@ def test_a_line_ends_before_a_letter_that_stands_in_its_direction() -> None:
     assert errors[1] < 0.5
 
 
+@pytest.mark.parametrize(
+    ("end", "stop"),
+    [
+        pytest.param(90, 92.4, id="a letter touches it beyond its arrowhead"),
+        pytest.param(91.9, 91.9, id="end and arrowhead are both far from where they should be"),
+    ],
+)
+def test_an_end_is_where_its_arrowhead_is(end: float, stop: float) -> None:
+    pole = 20 + 20j
+    pencil, way = pencil_of([(pole, stop + 20j)], [(pole, end + 20j)]), plan_of([0j, 70 + 0j], (0, 1))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[1] - end - 20j) < 0.3
+    assert errors[1] < 0.5
+
+
 def test_one_point_that_is_taken_for_another_makes_no_plan_larger() -> None:
     places = np.array([10 + 5j, 60 + 0j, 58 + 2j, 95 - 20j])
 
@@ -616,6 +633,7 @@ def test_a_crossing_is_not_sure_where_its_line_ends_in_an_arrowhead_beside_it(en
 A, B, C = 20 + 20j, 80 + 20j, 60 + 45j
 NEARLY = B + 4j  # beside B, as a reaction and its normal part end
 ASLANT = B + 40 * np.exp(1j * np.radians(162))  # from there a line hides a wing of the arrowhead at B
+ACROSS, LOOKS = B - (ASLANT - B) / 2, A + 30 * np.exp(1j * np.radians(16))  # where it goes on; a wing at A, it seems
 
 
 @pytest.mark.parametrize(
@@ -630,12 +648,13 @@ ASLANT = B + 40 * np.exp(1j * np.radians(162))  # from there a line hides a wing
         pytest.param([(0, 1), (3, 0)], [(B, A), (NEARLY, A)], {0: 0}, id="of which the other has its own there"),
         pytest.param([(0, 1), (4, 1)], [(B, A), (ASLANT, B)], {0: 0}, id="of which the other has its own at the tip"),
         pytest.param([(0, 1), (4, 1)], [(A, B), (ASLANT, B), (B, A)], {0: 0}, id="a hidden wing is not a bare one"),
+        pytest.param([(0, 1), (5, 4), (0, 6)], [(A, B)], {}, id="nor is it where a line hides it from most sides"),
     ],
 )
 def test_arrowheads_tell_which_way_a_vector_goes(
     edges: list[tuple[int, int]], arrows: list[tuple[complex, complex]], told: dict[int, int]
 ) -> None:
-    points = np.array([A, B, C, NEARLY, ASLANT])
+    points = np.array([A, B, C, NEARLY, ASLANT, ACROSS, LOOKS])
     pencil, way = pencil_of([(points[a], points[b]) for a, b in edges], arrows), plan_of([*(points - A)], *edges)
     way = replace(way, lines=way.lines[: 1 if edges[1] == (1, 0) else 2])
     _, _, found = traced(pencil, way, points, points, A)

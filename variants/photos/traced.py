@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 from typing import NamedTuple
 
 import numpy as np
@@ -247,7 +247,8 @@ def senses(pencil: Pencil, way: Way, points: Complex, found: Mapping[int, Traced
         forth, back = (_winged(pencil, *ends, dark, others.values()) for ends in pairs)
         alone = not (at_tip or at_tail or shared)
         if forth.faint <= BARE:  # no arrowhead where it should be
-            if back.dark >= POINTED:
+            half = forth.dark >= CLEARLY and back.faint <= BARE  # of one whose other wing a line hides
+            if back.dark >= POINTED and not half:
                 told[number] = -1 if alone and back.both >= POINTED and forth.dark <= BARE else 0
         elif at_tip and not at_tail and back.both >= CLEARLY:
             told[number] = 0
@@ -344,11 +345,12 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         return
     at = np.arange(-min(REACH, size / 3), REACH, 1.0 / PER_MM)
     best, place, angle = 0.0, 0.0, 0.0
-    for wing in WINGS:
+    for wing, by in product(WINGS, BY[::2]):  # the line may lie beside the point by a little
         behind = _behind(wing, size)
         if len(behind) < FEWEST:
             continue
-        legs = [foot + at[:, None] * unit - unit * np.exp(1j * side) * behind[None, :] for side in (wing, -wing)]
+        tips = foot + (at[:, None] + 1j * by) * unit
+        legs = [tips - unit * np.exp(1j * side) * behind[None, :] for side in (wing, -wing)]
         score = np.minimum(*(pencil.at(leg)[0] for leg in legs)).mean(axis=1) / line.dark
         own = int(score.argmax())
         if score[own] > best:
@@ -433,17 +435,26 @@ def _solved(
 def _telling(spots: list[_Spot], crossing: complex, error: float, wanted: complex) -> list[_Spot]:
     """Return the ends and arrowheads that tell of a point: of a flat crossing an arrowhead, or ends that are one.
 
-    Where a line ends and its arrowhead points elsewhere, nothing tells: a letter may touch either. Nor does what is far
-    from where a point should be: letters look like arrowheads, too, and no crossing says which it is.
+    Where a line ends and its arrowhead points elsewhere, nothing tells, for a letter may touch either; but one goes on
+    beyond an arrowhead that is about where it should be. Nor does what is far from where a point should be, if end and
+    arrowhead do not say the same: letters look like arrowheads, too, and no crossing says which it is.
     """
     near = [s for s in spots if abs(dot(s.unit, s.place - crossing)) < LIKELY * math.hypot(min(error, NEAR), s.error)]
     if error <= FLAT:
         return near
+    heads = [s for s in near if s.arrow and abs(dot(s.unit, s.place - wanted)) <= STRAYED]
+    near = [s for s in near if s.arrow or not any(_beyond(s, head) > ALIKE for head in heads)]
     apart = max((abs(dot(one.unit, one.place - other.place)) for one in near for other in near), default=LOST)
     alone = len(near) < 2 and not any(spot.arrow for spot in near) and error > TOLD
     alone &= any(abs(dot(spot.unit, spot.place - wanted)) > ALIKE for spot in near)
     strayed = any(abs(dot(spot.unit, spot.place - wanted)) > STRAYED for spot in near)
+    strayed &= not any(abs(_beyond(*two)) <= ALIKE for two in combinations(near, 2))  # both tell the same
     return [] if apart > ALIKE or alone or strayed else near
+
+
+def _beyond(spot: _Spot, head: _Spot) -> float:
+    """Return how far a line goes on beyond an arrowhead of its own, mm."""
+    return float(dot(spot.unit, spot.place - head.place)) if spot.unit == head.unit else math.inf
 
 
 class _Rows:
