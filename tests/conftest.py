@@ -15,6 +15,7 @@ from tempfile import mkdtemp
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from kulman import cli
 from kulman.drawing.compose import Drawn
@@ -32,6 +33,8 @@ from kulman.variants.photos.pictures import Photo
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
+settings.register_profile("kulman", deadline=None)  # no test is timed
+settings.load_profile("kulman")
 drawing_of, read_page, blank_of = sheets.drawing_of, reading._read, reading._blank_of
 bundled_tasks, SHARED = frozenset(bundled()), "KULMAN_TESTS_SHARED"
 drawings = Kept[Drawn](most=40)  # what has been drawn last

@@ -373,7 +373,7 @@ def test_a_message_stays_one_line_whatever_it_quotes() -> None:
     assert len(error.text().splitlines()) == 1
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=40, deadline=None)
+@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=40)
 @given(st.binary(max_size=300) | st.text(max_size=300).map(str.encode))
 def test_any_bytes_are_refused_in_one_line(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
     file = tmp_path_factory.getbasetemp() / "any.toml"
@@ -385,7 +385,7 @@ def test_any_bytes_are_refused_in_one_line(tmp_path_factory: pytest.TempPathFact
     assert caught.value.text("uk").isprintable()
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=50, deadline=None)
+@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=50)
 @given(st.data())
 def test_a_good_file_with_a_piece_cut_out_never_crashes(data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(GOOD)))

@@ -93,7 +93,7 @@ VALUES = st.recursive(
 )
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=50, deadline=None)
+@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=50)
 @given(st.dictionaries(KEYS, st.dictionaries(KEYS, VALUES, max_size=4), max_size=4))
 def test_places_point_at_the_keys_of_any_file(tables: dict[str, dict[str, str]]) -> None:
     text = "".join(f"[{table}]\n" + "".join(f"{k} = {v}\n" for k, v in rows.items()) for table, rows in tables.items())

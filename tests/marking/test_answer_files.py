@@ -267,7 +267,7 @@ def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
         assert [line.value for line in one(tmp_path, text).lines.values()] == pytest.approx([2.7, 220.0])
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.lists(st.lists(st.text(max_size=12), min_size=1, max_size=5), min_size=1, max_size=5))
 def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
     for row in csv.reader(io.StringIO(csv_table(rows, "uk").decode("utf-8-sig"), newline=""), delimiter=";"):
@@ -364,7 +364,7 @@ def test_a_folder_or_nothing_is_refused(tmp_path: Path) -> None:
     assert "there is no such file" in refused(tmp_path / "y.csv")
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.binary(max_size=400))
 def test_whatever_bytes_come_they_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
     folder = tmp_path_factory.mktemp("any")
