@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
@@ -11,7 +12,7 @@ from itertools import chain, combinations, cycle, islice, pairwise, product, tak
 from ..scales.scale import Scale
 from .formats import FORMATS, STYLES, Format, Norm, drawing_area, reserved_boxes, usable
 from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
-from .page import Page
+from .page import STATEMENT, TASK_VIEWS, Page
 from .shapes import Group
 from .tables import after, larger, narrower, part_of, roomier
 from .text import Box
@@ -42,8 +43,11 @@ ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
 HIGH = 0.0, *(row for row, part in ROWS if not part)  # of these in reading order, tables as wide as they are
 NARROWEST = 0.38  # part of the width of a page that texts beside a figure have at least
 PARTS, NUDGES = (0.25, 0.5, 0.75), 2  # of its free way that a view is moved, and how often each at most
-FAR = 2  # pages that a table may move
-ROUNDS, GAIN = 12, 1e-3  # moves of views to other pages, and parts of a page that each is worth
+FAR = 2  # pages that a view may move, and that a text may come after its figure
+ROUNDS, GAIN = 40, 1e-3  # moves of views to other pages, and parts of a page that each is worth
+LATE, FARTHER = 2e-3, 0.1  # parts of a page that it costs that a text is a page late, or early or yet later
+EVENER = 0.01  # the same, for the sake of even pages
+AHEAD = 0.05  # of what moves a page ahead for a last one with texts alone, as a gain
 PIECES = 2  # rows or lines at least on each page
 
 
@@ -69,6 +73,9 @@ def _on_a_page(
     sizes: tuple[Size, ...], sheet: Format, norm: Norm, begins: tuple[int, ...], first: bool, loose: bool
 ) -> tuple[Placement, ...] | None:
     """Place them, as `on_a_page` says; what was tried is kept, since pages and orders that are tried ask it again."""
+    left, low, right, top = usable(sheet, norm)
+    if sum((w + LEAST) * (h + LEAST) for w, h in sizes) > (right - left + LEAST) * (top - low + LEAST):
+        return None
     page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
     if not page.fits:
         return None
@@ -242,17 +249,9 @@ class Pages:
         """Place some of the views, by number, on one page."""
         key = tuple(own), page == 0
         if key not in self._tried:
-            x0, y0, x1, y1 = usable(self.sheet, self.norm)
-            sizes = [self.sizes[i] for i in own]
-            fits = sum((w + LEAST) * (h + LEAST) for w, h in sizes) <= (x1 - x0 + LEAST) * (y1 - y0 + LEAST)
-            begins = [self.begins[i] for i in own] if self.begins else ()
-            paper = self.sheet, self.norm
-            if not fits:
-                self._tried[key] = None
-            elif self.loose:
-                self._tried[key] = on_one_page(sizes, *paper, begins, page == 0)
-            else:
-                self._tried[key] = on_a_page(sizes, *paper, begins, page == 0)
+            sizes, begins = [self.sizes[i] for i in own], [self.begins[i] for i in own] if self.begins else ()
+            place = on_one_page if self.loose else on_a_page
+            self._tried[key] = place(sizes, self.sheet, self.norm, begins, page == 0)
         return [replace(place, page=page) for place in placed] if (placed := self._tried[key]) is not None else None
 
     def fill(self, own: Iterable[int], page: int) -> float:
@@ -316,111 +315,7 @@ class Pages:
 
 
 Standing = tuple[View, Placement]  # a view and where it stands
-
-
-@dataclass(frozen=True, slots=True)
-class _Breaking:
-    """Breaks tables and texts of later pages for a page that were else too empty; what `goes_on` has its heading so."""
-
-    sheet: Format
-    norm: Norm
-    goes_on: str
-
-    def filled(self, pages: list[list[Standing]]) -> list[list[Standing]]:
-        """Return pages with as much of the next texts as each has room for, where views left it too empty."""
-        pages = [*pages]
-        for number in range(len(pages) - 1):
-            while self._is_empty(pages[number], number):
-                told = {k: begins_of(view for view, _ in pages[k]) for k in range(number + 1, len(pages))}
-                later = sorted(
-                    ((k, i) for k in told for i in range(len(told[k]))), key=lambda at: told[at[0]][at[1]] == TOLD
-                )
-                moves = ((k, self._moved(pages[number], number, pages[k], i, k)) for k, i in later)
-                ways = ((k, *move) for k, move in moves if move and (move[1] or k == len(pages) - 1))
-                if (found := next(ways, None)) is None:
-                    break
-                pages[number], pages[found[0]] = found[1:]
-        return self._without_rest(pages[: 1 + max(k for k, page in enumerate(pages) if page)])
-
-    def _without_rest(self, pages: list[list[Standing]]) -> list[list[Standing]]:
-        """Return pages without the last one where it has but a table, or the rest of one, that has room before it."""
-        *before, end = pages
-        rest = end[0][0]
-        if len(end) > 1 or not rest.pieces:
-            return pages
-        parts = [
-            (k, i) for k, page in enumerate(before) for i, (view, _) in enumerate(page) if view.of == rest.of != ""
-        ]
-        for number in reversed(range(len(before))):
-            changed = {number: [view for view, _ in before[number]]}
-            if parts and number < (k := parts[-1][0]):  # it begins there, and goes on where it began
-                (_, i), count = parts[-1], rest.pieces
-                other = changed[k] = [view for view, _ in before[k]]
-                whole = after(other[i], rest)
-                changed[number].append(part_of(whole, 0, count, "".join(other[i].heading)))
-                other[i] = part_of(whole, count, whole.pieces, "".join(rest.heading))
-                if len(parts) > 1:
-                    continue
-            elif parts and number == parts[-1][0]:
-                changed[number][parts[-1][1]] = after(changed[number][parts[-1][1]], rest)
-            else:
-                changed[number].append(rest)
-            placed = {k: page for k, views in changed.items() if (page := self._placed(views, k)) is not None}
-            if len(placed) == len(changed):
-                return [placed.get(k, page) for k, page in enumerate(before)]
-        return pages
-
-    def _is_empty(self, page: Sequence[Standing], number: int) -> bool:
-        pages = Pages([view.size for view, _ in page], self.sheet, self.norm)
-        return pages.fill(range(len(page)), number) < ENOUGH[self.sheet.letters]
-
-    def _moved(
-        self, page: Sequence[Standing], number: int, other: Sequence[Standing], i: int, k: int
-    ) -> tuple[list[Standing], list[Standing]] | None:
-        """Return a page with as much of a text of another one as it has room for, and that other one without it.
-
-        Whatever stands alone may move, too; of one table no two parts stand on a page but to spare another page.
-        """
-        (whole, at), own = other[i], [view for view, _ in page]
-        if len(other) > 1 and whole.of in {view.of for view in own if view.of}:
-            return None
-        before, after = ([view for view, _ in part] for part in (other[:i], other[i + 1 :]))
-        if (whole.pieces or len(other) == 1) and (placed := self._placed([*own, whole], number)):
-            return placed, self._placed([*before, *after], k) or [*other[:i], *other[i + 1 :]]
-        found, said = None, "".join(whole.heading)
-        for count in range(PIECES, whole.pieces - PIECES + 1):
-            if (placed := self._placed([*own, part_of(whole, 0, count, said)], number)) is None:
-                break
-            found = placed, count
-        if found is None:
-            return None
-        goes_on = said if whole.of else self.goes_on.format(heading=said)  # of a part its heading says so already
-        tail = part_of(whole, found[1], whole.pieces, goes_on)
-        left = self._placed([*before, tail, *after], k)
-        if left is None:
-            below = replace(at, y=at.y + whole.size[1] - tail.size[1])
-            if not self._is_clear(tail, below, (*other[:i], *other[i + 1 :])):
-                return None
-            left = [*other[:i], (tail, below), *other[i + 1 :]]
-        return found[0], left
-
-    def _is_clear(self, view: View, at: Placement, others: Iterable[Standing]) -> bool:
-        """Whether a view at a place, by a longer heading wider than before, is on the page and covers no other."""
-        end, (x0, _, x1, _) = at.x + view.size[0], usable(self.sheet, self.norm)
-        top = at.y + view.size[1]
-        return (
-            x0 <= at.x
-            and end <= x1
-            and all(
-                end <= place.x or place.x + one.size[0] <= at.x or top <= place.y or place.y + one.size[1] <= at.y
-                for one, place in others
-            )
-        )
-
-    def _placed(self, views: Sequence[View], number: int) -> list[Standing] | None:
-        sizes = [view.size for view in views]
-        placed = on_one_page(sizes, self.sheet, self.norm, begins_of(views), number == 0)
-        return None if placed is None else [*zip(views, placed, strict=True)]
+Span = tuple[int, int]  # the first of the rows or lines that stand on a page, and the one before which they end
 
 
 def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
@@ -443,13 +338,17 @@ def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> li
     return page
 
 
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
+
+
 def _box_of(standing: Standing) -> Box:
     """Return the box that a view fills where it stands."""
     view, at = standing
     return at.x, at.y, at.x + view.size[0], at.y + view.size[1]
 
 
-def _short(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> float:
+def _lacks(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> tuple[float, float]:
     """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
     room, boxes = drawing_area(sheet, norm), [*reserved_boxes(sheet, norm, first=first)]
     over = OVER * STYLES[sheet.letters].heading
@@ -458,124 +357,192 @@ def _short(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> 
         boxes.append((left + edge, low + edge, right - edge, high - over))
     area = (room[2] - room[0]) * (room[3] - room[1])
     fill = sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / area
-    return max(0.0, ENOUGH[sheet.letters] - fill) + max(0.0, bare(room, boxes) / area - EMPTY)
+    return max(0.0, ENOUGH[sheet.letters] - fill), max(0.0, bare(room, boxes) / area - EMPTY)
 
 
 @dataclass(slots=True)
-class _Evening:
-    """Evens out pages that are too empty or have too large a bare rectangle: letters are larger there, tables roomier.
+class _Parting:
+    """Moves views between pages, texts by rows or lines, too, until none is too empty or has a large bare rectangle.
 
-    Where that is not enough, views move between pages; `order` has the names of all in reading order. Those of the
-    `lead`, with which the first page begins, stay there; what `goes_on` from a page before has its heading so.
+    `views` are all in reading order, texts whole; those with which the first page begins stay there. What `goes_on`
+    from a page before has its heading so. Where pages stay `plain` only texts move, and all keep their letters; what
+    moves ahead on them may `spare` the last one.
     """
 
     sheet: Format
     norm: Norm
-    order: Sequence[str]
-    lead: Collection[str]
     goes_on: str
-    _parted: dict[tuple[int, int], tuple[View, list[View]]] = field(default_factory=dict)
-    _found: dict[tuple[int, ...], tuple[float, list[Standing]] | None] = field(default_factory=dict)
+    views: Sequence[View]
+    plain: bool = True
+    spare: bool = False
+    _kinds: list[int] = field(init=False)
+    _figures: list[int] = field(init=False)  # to which each text belongs; -1 for any
+    _parts: dict[tuple[int, Span], View] = field(default_factory=dict)
+    _found: dict[tuple[object, ...], tuple[float, list[Standing]] | None] = field(default_factory=dict)
     _made: dict[tuple[int, float, float], View] = field(default_factory=dict)
 
-    def _short(self, page: Sequence[Standing], number: int) -> float:
-        return _short(page, self.sheet, self.norm, number == 0)
+    def __post_init__(self) -> None:
+        """See which figure each text belongs to."""
+        self._kinds, self._figures, figure = begins_of(self.views), [], -1
+        numbers = {view.name: i for i, view in enumerate(self.views)}
+        for i, (view, kind) in enumerate(zip(self.views, self._kinds, strict=True)):
+            figure = i if kind == FIGURE else figure
+            self._figures.append(numbers.get(view.about or "", figure if kind == TOLD else -1))
 
-    def evened(
-        self, parted: Sequence[Sequence[Standing]], pages: Sequence[list[Standing]]
-    ) -> tuple[list[list[Standing]], float]:
-        """Return pages, made of those that are `parted`, and what they are short of: as little as can be."""
-        end, places = len(pages) - 1, [*pages]
-        costs = [self._short(page, number) if number < end else 0.0 for number, page in enumerate(pages)]
-        if not any(costs):
-            return places, 0.0
-        own = [self._sorted(view for view, _ in page) for page in parted]
-        for number in (number for number in range(end) if costs[number]):
+    def evened(self, pages: Sequence[list[Standing]]) -> tuple[list[list[Standing]], float]:
+        """Return pages like these, and what they are short of: as little as can be found."""
+        spans, places, end = self._spans(pages), [*pages], len(pages) - 1
+        costs = [self._short(page, number, end) for number, page in enumerate(pages)]
+        for number in (number for number in range(end) if costs[number] and not self.plain):
             page = self._nudged(places[number], number)  # it may have places that no order of its views gives
-            ways = (self._short(page, number), page), self._best(own[number], number, end)
+            ways = (self._short(page, number, end), page), self._best(spans[number], number, end)
             costs[number], places[number] = min((way for way in ways if way), key=lambda way: way[0])
-        for _ in range(ROUNDS if any(costs) else 0):
-            moves = (self._moved(own, costs, move) for move in self._moves(own, costs))
-            _, changed = max((move for move in moves if move), key=lambda move: move[0], default=(0.0, {}))
+        for _ in range(ROUNDS):
+            tried = (self._moved(spans, costs, *move) for move in self._moves(spans, costs))
+            gains = (way for way in tried if way[1])  # all are looked at where that is quick
+            _, changed = max(gains, key=lambda way: way[0], default=(0.0, {})) if self.plain else next(gains, (0.0, {}))
             if not changed:
                 break
-            for number, (views, cost, page) in changed.items():
-                own[number], costs[number], places[number] = views, cost, page
+            for number, (own, cost, page) in changed.items():
+                spans[number], costs[number], places[number] = own, cost, page
+            if not spans[-1]:
+                spans, places = spans[:-1], places[:-1]
+                costs = [*costs[:-2], self._short(places[-1], len(places) - 1, len(places) - 1)]
         return places, sum(costs)
 
-    def _moves(self, pages: Sequence[list[View]], costs: Sequence[float]) -> Iterator[tuple[int, int, int, int]]:
-        """Go through moves of a view to another page, one of both being short, or of so many of its pieces.
+    def _spans(self, pages: Sequence[Sequence[Standing]]) -> list[dict[int, Span]]:
+        """Return which rows or lines stand on each page, by the number of their view."""
+        numbers, begun = {view.name: i for i, view in enumerate(self.views)}, [0] * len(self.views)
+        spans = list[dict[int, Span]]()
+        for page in pages:
+            spans.append({})
+            for view, _ in page:
+                i = numbers[view.of or view.name]
+                span = begun[i], begun[i] + view.pieces
+                self._parts.setdefault((i, span), view)
+                spans[-1][i], begun[i] = (spans[-1].get(i, span)[0], span[1]), span[1]
+        return spans
 
-        A figure keeps its turn, and leaves no page to texts alone; a part of a table keeps its turn, too.
+    def _part(self, i: int, span: Span) -> View:
+        """Return these rows or lines of a view."""
+        if (i, span) not in self._parts:
+            view, said = self.views[i], "".join(self.views[i].heading)
+            heading = self.goes_on.format(heading=said) if span[0] else said
+            self._parts[i, span] = view if span == (0, view.pieces) else part_of(view, *span, heading)
+        return self._parts[i, span]
+
+    def _astray(self, spans: Sequence[Mapping[int, Span]]) -> list[float]:
+        """Return what it costs, as parts of a page, that texts of each page stand away from their figures."""
+        at = {i: number for number, page in enumerate(spans) for i in page if self._kinds[i] == FIGURE}
+        costs, farther = [], FARTHER if self.plain else EVENER
+        for number, page in enumerate(spans):
+            late = [number - at.get(self._figures[i], number) for i in page]
+            costs.append(sum(LATE * max(far, 0) + farther * max(-far, far - FAR, 0) for far in late))
+        return costs
+
+    def _moves(
+        self, spans: Sequence[Mapping[int, Span]], costs: Sequence[float]
+    ) -> Iterator[tuple[int, int, dict[int, int]]]:
+        """Go through moves from a page to another one: of which views, and of how many pieces of each.
+
+        One of both is short, or the last one without a figure. A figure keeps its turn, and leaves no page to texts
+        alone; parts of a text keep theirs, too.
         """
-        for a, page in enumerate(pages):
-            begins = begins_of(page)
-            figures = [i for i, kind in enumerate(begins) if kind == FIGURE]
-            for i, b in product(range(len(page)), range(max(0, a - FAR), min(a + FAR + 1, len(pages)))):
-                kind, view = begins[i], page[i]
-                stays = len(page) == 1 or view.name in self.lead or (kind != TEXT and abs(a - b) > 1)
-                stays |= kind == FIGURE and (len(figures) == 1 or i != figures[-1 if b > a else 0])
-                if a == b or stays or not (costs[a] or costs[b]):
+        end, away = len(spans) - 1, self._astray(spans)
+        stays = {*_lead(self._kinds), *(i for i, view in enumerate(self.views) if view.name in STATEMENT)}
+        at = {i: number for number, page in enumerate(spans) for i in page if self._kinds[i] == FIGURE}
+        for a, page in enumerate(spans):
+            figures = [i for i in sorted(page) if self._kinds[i] == FIGURE]
+            for i, b in product(page, range(end + 1)):
+                needed = costs[a] or costs[b] or away[a] >= EVENER or (b < a and costs[end])
+                far = min(abs(a - b), abs(at.get(self._figures[i], a) - b))
+                if a == b or i in stays or not needed or far > FAR or (len(page) == 1 and (a < end or not self.plain)):
                     continue
-                way = chain(*pages[min(a, b) : max(a, b) + 1])
-                if not (view.of and any(other.of == view.of and other is not view for other in way)):
-                    yield a, b, i, view.pieces
-                    if b < a and costs[b] and view.rows and not view.of:
-                        counts = {round(part * view.pieces) for part in PARTS}
-                        yield from ((a, b, i, n) for n in sorted(counts) if PIECES <= n <= view.pieces - PIECES)
+                if self._kinds[i] == FIGURE:
+                    alone = len(figures) == 1 if a < end else len(page) > 1 and self.plain
+                    if abs(a - b) > 1 or alone or i != figures[-1 if b > a else 0]:
+                        continue
+                    told = {k: span[1] - span[0] for k, span in page.items() if self._figures[k] == i}
+                    yield from ((a, b, {i: 0, **own}) for own in (({}, told) if told else ({},)))
+                elif not any(i in spans[number] for number in range(min(a, b) + 1, max(a, b))):
+                    count = page[i][1] - page[i][0]
+                    some = range(count, 0, -1) if self.plain else sorted({round(part * count) for part in PARTS})
+                    if self.views[i].name not in TASK_VIEWS:
+                        yield from ((a, b, {i: n}) for n in some if PIECES <= n <= count - PIECES)
+                    yield a, b, {i: count}
 
     def _moved(
-        self, pages: Sequence[list[View]], costs: Sequence[float], move: tuple[int, int, int, int]
-    ) -> tuple[float, dict[int, tuple[list[View], float, list[Standing]]]] | None:
-        """Return what a move gains, and the views of both pages with what these are short of then; None if nothing."""
-        (a, b, i, count), end = move, len(pages) - 1
-        moving, before = pages[a][i], costs[a] + costs[b]
-        goes, stays = self._parts(moving, count)
-        found = {}
-        for number, views in ((a, [*pages[a][:i], *stays, *pages[a][i + 1 :]]), (b, self._sorted([*pages[b], goes]))):
-            best = self._best(views, number, end)
-            if best is None or best[0] > before - GAIN:
-                return None
-            found[number] = views, *best
-            before -= best[0]
-        return before, found
+        self, spans: Sequence[dict[int, Span]], costs: Sequence[float], a: int, b: int, moved: Mapping[int, int]
+    ) -> tuple[float, dict[int, tuple[dict[int, Span], float, list[Standing]]]]:
+        """Return what a move gains, and both pages with what these are short of then; none where it gains nothing."""
+        own = {a: {**spans[a]}, b: {**spans[b]}}
+        for i, count in moved.items():
+            begin, end = own[a].pop(i)
+            cut = begin + count if b < a else end - count
+            goes, stays = ((begin, cut), (cut, end)) if b < a else ((cut, end), (begin, cut))
+            if stays[0] < stays[1]:
+                own[a][i] = stays
+            there = own[b].get(i, goes)
+            own[b][i] = min(goes[0], there[0]), max(goes[1], there[1])
+        after = [own.get(number, page) for number, page in enumerate(spans)]
+        gain = costs[a] + costs[b] + sum(self._astray(spans)) - sum(self._astray(after)) + (not own[a])
+        end = len(spans) - 1
+        if costs[end]:  # where a page has less there is room for what comes later
+            gain += (a - b) * AHEAD * sum(self._area(i, (0, count)) for i, count in moved.items())
+        found = dict[int, tuple[dict[int, Span], float, list[Standing]]]()
+        if gain - sum(self._lack(page, number) for number, page in own.items() if page and number < end) < GAIN:
+            return 0.0, {}
+        for number, page in own.items():
+            best = self._best(page, number, end)
+            if best is None or gain - best[0] < GAIN:
+                return 0.0, {}
+            found[number], gain = (page, *best), gain - best[0]
+        return gain, found
 
-    def _parts(self, view: View, count: int) -> tuple[View, list[View]]:
-        """Return the first pieces of a view, so many, and what is left of it then."""
-        if count == view.pieces:
-            return view, []
-        key, said = (id(view), count), "".join(view.heading)
-        if key not in self._parted:
-            head = part_of(view, 0, count, said)
-            self._parted[key] = head, [part_of(view, count, view.pieces, self.goes_on.format(heading=said))]
-        return self._parted[key]
+    def _lack(self, spans: Mapping[int, Span], number: int) -> float:
+        """Return what a page of these views is too empty by at least, its texts being as large as can be."""
+        grown = 1.0 if self.plain else GROWN
+        own = sum(self._area(i, span) * (grown if self.views[i].pieces else 1.0) for i, span in spans.items())
+        blocks = sum(map(_area, reserved_boxes(self.sheet, self.norm, first=number == 0)))
+        return max(0.0, ENOUGH[self.sheet.letters] - own - blocks / _area(drawing_area(self.sheet, self.norm)))
 
-    def _sorted(self, views: Iterable[View]) -> list[View]:
-        return sorted(views, key=lambda view: self.order.index(view.of or view.name))
+    def _area(self, i: int, span: Span) -> float:
+        """Return which part of a page these rows or lines of a view take."""
+        part = (span[1] - span[0]) / self.views[i].pieces if self.views[i].pieces else 1.0
+        return part * math.prod(self.views[i].size) / _area(drawing_area(self.sheet, self.norm))
 
-    def _best(self, views: list[View], number: int, end: int) -> tuple[float, list[Standing]] | None:
+    def _best(self, spans: Mapping[int, Span], number: int, end: int) -> tuple[float, list[Standing]] | None:
         """Return what a page of these views is short of at least, and how it is laid out so; None without room."""
-        key = number, number == end, *map(id, views)
+        key = self.plain, number == 0, (number == end) * (1 + self.spare), *sorted(spans.items())
         if key not in self._found:
-            begins, first = begins_of(views), number == 0
-            best: tuple[float, list[Standing]] | None = None
-            for again in self._written(views, begins) if number < end else [views]:
-                sizes, paper = [view.size for view in again], (self.sheet, self.norm, begins, first)
-                for loose in (False, True):
-                    placed = on_one_page(sizes, *paper, loose)
-                    page = [] if placed is None else [*zip(again, placed, strict=True)]
-                    cost = self._short(page, number) if page and number < end else 0.0
-                    if page and (best is None or cost < best[0]):
-                        best = cost, page
+            views = [self._part(i, span) for i, span in sorted(spans.items())]
+            even, best = number < end, ((0.0, list[Standing]()) if not views else None)
+            kinds, first = begins_of(views), number == 0
+            ways = [self._larger, self._beside] if even and not self.plain else []
+            for way in (lambda own, _: [own], *ways) if views else ():
+                if way == self._larger and best is None:
+                    continue
+                for again, loose in product(way(views, kinds), (False, True)[: 1 if self.plain else 2]):
                     if best is not None and not best[0]:
                         break
-                if best is None or not best[0]:
-                    break
-            if best is not None and best[0]:
+                    placed = on_one_page([view.size for view in again], self.sheet, self.norm, kinds, first, loose)
+                    page = [] if placed is None else [*zip(again, placed, strict=True)]
+                    cost = self._short(page, number, end) if page else 0.0
+                    if page and (best is None or cost < best[0]):
+                        best = cost, page
+            if best and best[0] and not self.plain and not _lacks(best[1], self.sheet, self.norm, first)[0]:
                 nudged = self._nudged(best[1], number)
-                best = self._short(nudged, number), nudged
+                best = self._short(nudged, number, end), nudged
             self._found[key] = best
         return self._found[key]
+
+    def _short(self, page: Sequence[Standing], number: int, end: float = math.inf) -> float:
+        """Return what a page is short of; of the last one what is taken, where texts alone might have room before."""
+        if number < end:
+            lacks = _lacks(page, self.sheet, self.norm, number == 0)
+            return lacks[0] if self.plain else sum(lacks)
+        texts = self.spare and all(view.pieces for view, _ in page)
+        return sum(map(math.prod, (view.size for view, _ in page))) / _area(drawing_area(self.sheet, self.norm)) * texts
 
     def _nudged(self, page: list[Standing], number: int) -> list[Standing]:
         """Return a page with views a little aside, as long as that makes its largest bare rectangle smaller.
@@ -629,7 +596,7 @@ class _Evening:
         )
         return [] if any(near) else other
 
-    def _written(self, views: list[View], begins: Sequence[int]) -> Iterator[list[View]]:
+    def _larger(self, views: list[View], _: Sequence[int]) -> Iterator[list[View]]:
         """Go through the views with ever larger letters and roomier tables."""
         x0, y0, x1, y1 = usable(self.sheet, self.norm)
         parted = any(view.of for view in views)
@@ -641,6 +608,10 @@ class _Evening:
             again = [self._once(view, widest, row) if row and view.rows else view for view in own]
             if sum(math.prod(view.size) for view in again) < (x1 - x0) * (y1 - y0):
                 yield again
+
+    def _beside(self, views: list[View], begins: Sequence[int]) -> Iterator[list[View]]:
+        """Go through the views with texts narrow enough to stand beside a figure."""
+        x0, _, x1, _ = usable(self.sheet, self.norm)
         figures = [view.size[0] for view, kind in zip(views, begins, strict=True) if kind == FIGURE]
         for left in sorted({x1 - x0 - LEAST - wide for wide in figures}):
             if left >= NARROWEST * (x1 - x0):
@@ -747,37 +718,45 @@ def compose(
 
     The heading of what `goes_on` from a page before has these words.
     """
-    every, pages = range(last(places) + 1), [*zip(views, places, strict=True)]
-    parted = _Breaking(sheet, norm, goes_on).filled([[own for own in pages if own[1].page == k] for k in every])
-    sheets = [sheet] * len(parted)
-    if smaller and len(parted) > 1:
-        own = [view for view, _ in parted[-1]]
+    pages = [[own for own in zip(views, places, strict=True) if own[1].page == k] for k in range(last(places) + 1)]
+    whole = dict[str, View]()
+    for view in views:  # what comes in parts
+        name, one = view.of or view.name, replace(view, of="") if view.of else view
+        whole[name] = after(whole[name], view) if name in whole else one
+    parting, short = _Parting(sheet, norm, goes_on, [*whole.values()]), 0.0
+    if len(pages) > 1:
+        ways = []
+        for parting.spare in (True, False):
+            ways.append(parting.evened(pages)[0])
+        pages = min(reversed(ways), key=len)
+    sheets = [sheet] * len(pages)
+    if smaller and len(pages) > 1:
+        own = [view for view, _ in pages[-1]]
         for less in takewhile(lambda less: less is not sheet, FORMATS.values()):
             if (
                 placed := on_one_page([view.size for view in own], less, norm, begins_of(own), first=False)
             ) is not None:
-                sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
+                sheets[-1], pages[-1] = less, [*zip(own, placed, strict=True)]
                 break
-    done = []
     for k, paper in enumerate(sheets):
-        on = paper, norm, k == 0
-        end = 0 < k == len(sheets) - 1
-        read = _as_read(_legible(parted[k], *on, end=end), *on)
-        done.append(read if end else _without_holes(read, *on))
-    short = 0.0
-    if len(parted) > 1 and sheets[-1] is sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
-        lead = [views[i].name for i in _lead(begins_of(views))]
-        evening = _Evening(sheet, norm, [view.of or view.name for view in views], lead, goes_on)
-        parted, short = evening.evened(parted, done)
-    else:
-        parted = done
-    drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
-    shown = [view for page in parted for view, _ in page]
-    whole = {view.name: view for view in shown if not view.of}
-    for view in (view for view in views if view.of):  # what came in parts
-        whole[view.of] = after(whole[view.of], view) if view.of in whole else replace(view, of="")
-    begun = (view for view in views if view.of in ("", view.name))
-    every_one = (*(whole.get(view.name, view) for view in begun), *(view for view in shown if view.of))
+        on, end = (paper, norm, k == 0), 0 < k == len(sheets) - 1
+        read = _as_read(_legible(pages[k], *on, end=end), *on)
+        pages[k] = read if end else _without_holes(read, *on)
+    if len(pages) > 1 and sheets[-1] is sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
+        parting.plain = False
+        pages, short = parting.evened(pages)
+        sheets = sheets[: len(pages)]
+    parts, shown = Counter[str](), list[list[Standing]]()
+    for page in pages:
+        shown.append([])
+        for view, at in page:
+            name = f"{view.of}{parts[view.of] * '_continued'}" if view.of else view.name
+            parts[view.of] += 1
+            shown[-1].append((replace(view, name=name) if view.of else view, at))
+    drawn = tuple(tuple(view.at(at.x, at.y) for view, at in page) for page in shown)
+    every = [view for page in shown for view, _ in page]
+    alone = {view.name: view for view in every if not view.of}
+    every_one = (*(alone.get(name, view) for name, view in whole.items()), *(view for view in every if view.of))
     return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction, short=short)
 
 
@@ -819,7 +798,7 @@ def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: 
             for loose in (False,) if end or place is on_one_page else (False, True):
                 placed = place([view.size for view in again], *paper, begins, first, loose)
                 found = [] if placed is None else [*zip(again, placed, strict=True)]
-                if found and (end or place is on_one_page or not _short(found, *paper, first)):
+                if found and (end or place is on_one_page or not any(_lacks(found, *paper, first))):
                     return found
                 if not found:
                     without[place] = area / room

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
@@ -66,7 +66,7 @@ class Figure(Generic[Scene]):
     """One figure of a sheet: how it is drawn, the ladders of scale factors it depends on, the one that sizes it first.
 
     The first of its `stages` is there before any step, and on a blank. Its sentences have keys that begin with `key`;
-    without one nothing is told. A table or a text has no stages.
+    without one nothing is told. A table or a text has no stages; `about` is as of its view.
     """
 
     name: str
@@ -74,6 +74,7 @@ class Figure(Generic[Scene]):
     ladders: tuple[str, ...] = ()
     stages: tuple[Stage, ...] = ()
     key: str = ""
+    about: str | None = None
 
     def keys(self, scene: Any) -> dict[str, str]:
         """Return the stages that a scene has, in order, with the keys of their sentences."""
@@ -198,7 +199,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
         for figure in self.figures(scene, width):
             key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
             if key not in self._drawn:
-                self._drawn[key] = figure.draw(scene)
+                self._drawn[key] = replace(figure.draw(scene), about=figure.about)
             sized.append((self._drawn[key], figure))
         return sized
 

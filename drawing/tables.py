@@ -234,7 +234,7 @@ def _again(view: View, style: Style | None) -> View:
         again = table(view.name, heading, view.rows, style, view.width)
     else:
         again = text_block(view.name, heading, view.lines, style, view.width)
-    return replace(again, of=view.of)
+    return replace(again, of=view.of, about=view.about)
 
 
 def words_of(sentence: str) -> tuple[str, ...]:

@@ -52,7 +52,8 @@ class View:
     which it is drawn, in order, with the keys of the sentences that tell them; `parts` has the stage of every shape,
     `needs` the stages of other views that must be done before some of them, `whole`, by the numbers of the shapes, what
     those are pieces of that break off at letters. A table or a text has the `style` and the `width` in which parts of
-    it are drawn on several pages; a part tells the view `of` which it is one.
+    it are drawn on several pages; a part tells the view `of` which it is one. There it follows the figure that it is
+    `about`, or, being about "", begins; where nothing is said it comes in the order of the work.
     """
 
     name: str
@@ -69,6 +70,7 @@ class View:
     style: Style | None = None
     width: float = 0.0
     of: str = ""
+    about: str | None = None
 
     @property
     def pieces(self) -> int:

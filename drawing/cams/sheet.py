@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -106,26 +107,31 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         followers = [follower for follower in (ROLLER, ROCKER, PLATE) if getattr(solved, follower)]
         wide = {PLATE: width}
         equations = {
-            own: Figure(f"equations_{own}", partial(text.sizes_block, follower=own, width=wide.get(own, narrow)))
+            own: Figure(
+                f"equations_{own}",
+                partial(text.sizes_block, follower=own, width=wide.get(own, narrow)),
+                about=sizes_view.FIGURES[own].name,
+            )
             for own in (followers if SIZES_PART in plans else ())
         }
         if drawn:
             yield diagrams_view.DIAGRAMS_FIGURE
         for follower in followers if PROFILE_PART in plans else ():
-            yield profile_view.FIGURES[follower]
+            yield replace(profile_view.FIGURES[follower], about=sizes_view.FIGURES[follower].name)
         yield from (sizes_view.FIGURES[own] for own in equations if own != PLATE)
         yield from (figure for own, figure in equations.items() if own == PLATE)
         if drawn:
-            yield Figure("motion", text.motion_table)
+            yield Figure("motion", text.motion_table, about=DIAGRAMS_PART)
         yield from (figure for own, figure in equations.items() if own != PLATE)
         if drawn:
-            yield Figure("givens", partial(text.data_table, stated=self.stated))
-            yield Figure("choices", partial(text.choices_block, width=narrow), ("reduction",))
+            yield Figure("givens", partial(text.data_table, stated=self.stated), about=DIAGRAMS_PART)
+            yield Figure("choices", partial(text.choices_block, width=narrow), ("reduction",), about=DIAGRAMS_PART)
         if PRESSURE_PART in plans and solved.rolling is not None:
             yield diagrams_view.PRESSURE_FIGURE
         yield from (sizes_view.FIGURES[own] for own in equations if own == PLATE)
         if drawn:
-            yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
+            scales = partial(text.scales_block, width=width)
+            yield Figure("equations_scales", scales, ("reduction",), about=DIAGRAMS_PART)
 
     def part(self, rungs: Rungs) -> float:
         """Return what a millimetre of the task's diagrams is on the sheet."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations, product
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION
@@ -16,6 +17,7 @@ from ...plans.linkages.cycle import slider_runs
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
 from ...plans.names import role, scale_factor
+from ...plans.quantities import plans_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Fixed, Scale, Segment, steps
@@ -76,8 +78,11 @@ def _figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
     if not single:
         yield from _results(solved, own)
     if "compound" in plans:
-        yield from _compound(solved, width)
-        yield from _results(solved, ("compound",))
+        compound = [*_compound(solved, width)]
+        yield from compound
+        yield from _results(
+            solved, ("compound",), {figure.ladders[0]: figure.name for figure in compound if figure.ladders}
+        )
     if contents.cycle is not None:
         # a sheet of one position does not pay for the import
         from .figures.cycle import coupler, diagrams_view, field_view, main_output, positions_view
@@ -121,9 +126,15 @@ def _text(
     return Figure(name, draw)
 
 
-def _results(solved: SolvedLinkage, kinds: Sequence[str]) -> Iterator[LinkageFigure]:
-    parts = (part for part in results_parts(solved) if part.kind in kinds)
-    return (Figure(part.name, partial(results_table, part=part)) for part in parts)
+def _results(
+    solved: SolvedLinkage, kinds: Sequence[str], views: Mapping[str, str] = MappingProxyType({})
+) -> Iterator[LinkageFigure]:
+    """Go through tables, each about the last plan that it was measured on; `views` call it so by its scale factor."""
+    plans, order = plans_of(solved.program), solved.program.plans
+    for part in (part for part in results_parts(solved) if part.kind in kinds):
+        measured = max((plans[name] for name in part.names if name in plans), key=order.index, default="")
+        about = views.get(solved.scale_of_plan.get(measured, ""), measured)
+        yield Figure(part.name, partial(results_table, part=part), about=about)
 
 
 def _plan(solved: SolvedLinkage, plan: str) -> LinkageFigure:
@@ -471,7 +482,8 @@ class _Fitting:
             symbol = next(iter(figure.ladders), "")
             if len(figure.ladders) > 1:
                 symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s])
-            built.append((scene.once(figure.draw, "figure", figure.name), self.extents.root(symbol)))
+            view = scene.once(figure.draw, "figure", figure.name)
+            built.append((replace(view, about=figure.about), self.extents.root(symbol)))
         return built
 
     def statements(self, sheet: Format, rungs: Rungs) -> Iterator[list[View]]:

@@ -458,11 +458,12 @@ def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:
 
 def test_a_table_over_many_pages_is_continued_once_on_each():
     style, paper = STYLES["A4"], FORMATS["A4"]
-    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(120))], style)
-    figures = [View(f"plan {k}", (), (0.0, 0.0, 130.0, 80.0)) for k in range(3)]
-    alone = [*(Placement(k, 70.0, 190.0) for k in range(3)), Placement(2, 25.0, 30.0)]
+    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(60))], style)
+    begun, rest = part_of(long, 0, 30, "Values"), part_of(long, 30, 60, "Values (continued)")
+    figures = [View(f"plan {k}", (), (0.0, 0.0, 130.0, 80.0 + 70.0 * (k > 0))) for k in range(3)]
+    alone = [*(Placement(k, 70.0, 120.0) for k in range(3)), Placement(1, 25.0, 30.0), Placement(2, 25.0, 30.0)]
 
-    drawn = compose((*figures, long), alone, {}, paper, "gost", "{heading} (continued)")
+    drawn = compose((*figures, begun, rest), alone, {}, paper, "gost", "{heading} (continued)")
 
     headings = [part.heading for part in drawn.views if part.of]
     assert headings == [("Values",), ("Values (continued)",), ("Values (continued)",)]
