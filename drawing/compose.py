@@ -449,6 +449,7 @@ class _Parting:
         alone; parts of a text keep theirs, too.
         """
         end, away = len(spans) - 1, self._astray(spans)
+        whole = TASK_VIEWS if self.sheet is not FORMATS[self.sheet.name] else ()  # as a blank says them
         stays = {*_lead(self._kinds), *(i for i, view in enumerate(self.views) if view.name in STATEMENT)}
         at = {i: number for number, page in enumerate(spans) for i in page if self._kinds[i] == FIGURE}
         for a, page in enumerate(spans):
@@ -467,7 +468,7 @@ class _Parting:
                 elif not any(i in spans[number] for number in range(min(a, b) + 1, max(a, b))):
                     count = page[i][1] - page[i][0]
                     some = range(count, 0, -1) if self.plain else sorted({round(part * count) for part in PARTS})
-                    if self.views[i].name not in TASK_VIEWS:
+                    if self.views[i].name not in whole:
                         yield from ((a, b, {i: n}) for n in some if PIECES <= n <= count - PIECES)
                     yield a, b, {i: count}
 
