@@ -29,6 +29,7 @@ from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line
 from kulman.drawing.tables import part_of, table, text_block
 from kulman.drawing.view import View
+from kulman.tests.support.cases import some
 
 # Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
 # slider, driver, its forces, equations; lever, its equations, two tables.
@@ -454,6 +455,27 @@ def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:
         assert (*first.rows, *rest.rows[1:], *first.lines, *rest.lines) == (*view.rows, *view.lines)
         full = compose((replace(figure, box=(0.0, 0.0, 170.0, 120.0)), view), alone, {}, paper, "gost", "{heading}")
         assert [part for part in full.views if part.of] == []
+
+
+@pytest.mark.parametrize("seed", some(range(60), 0, 7))
+def test_no_part_of_a_table_has_fewer_than_four_rows(seed: int) -> None:
+    rng, style, paper = random.Random(seed), STYLES["A4"], FORMATS["A4"]
+    parted = 0
+    for _ in range(4):
+        highs = [rng.uniform(60.0, 150.0) for _ in range(rng.randint(2, 4))]
+        figures = [View(f"plan {k}", (), (0.0, 0.0, rng.uniform(120.0, 170.0), high)) for k, high in enumerate(highs)]
+        cells = [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(rng.randint(8, 30)))]
+        places = [Placement(k, 25.0, 120.0) for k in range(len(figures))]
+        last_page = Placement(len(figures) - 1, 25.0, 30.0)
+
+        drawn = compose(
+            (*figures, table("values", "Values", cells, style)), [*places, last_page], {}, paper, "gost", "{heading} …"
+        )
+
+        parts = [part for part in drawn.views if part.of]
+        parted += bool(parts)
+        assert all(part.pieces >= 4 for part in parts)
+    assert seed or parted
 
 
 def test_a_table_over_many_pages_is_continued_once_on_each():
