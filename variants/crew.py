@@ -276,11 +276,13 @@ class Journal(Generic[Made]):
 
 def remove_stale(
     folder: Path, before: Iterable[tuple[str, str]], names: Container[str], suffixes: Container[str]
-) -> None:
+) -> list[str]:
     """Remove files of earlier runs that are not among the `names` of this one, of the kinds that such runs write.
 
     `before` are names and digests that earlier runs have noted as their own: what somebody has changed stays.
+    The names of those that are gone are returned.
     """
+    gone = list[str]()
     for name, digest in before:
         stale = folder / name
         with suppress(OSError):
@@ -288,6 +290,8 @@ def remove_stale(
                 continue
             if name not in names and stale.suffix in suffixes and digest_of(stale.read_bytes()) == digest:
                 stale.unlink()
+                gone.append(name)
+    return gone
 
 
 def digest_of(data: str | bytes) -> str:

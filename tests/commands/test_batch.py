@@ -70,6 +70,18 @@ def test_every_student_gets_a_sheet_and_who_does_not_is_named(tmp_path: Path, ru
     assert keys[2]["V_B [m/s]"] == ""
 
 
+def test_what_an_earlier_run_has_made_and_this_one_does_not_is_said_to_be_gone(tmp_path: Path) -> None:
+    listed, out = roster(tmp_path, "Iryna;MM-21;3;", "Olha;MM-22;5;"), tmp_path / "out"
+    asked = {"only": "structure", "jobs": 1, "merge": True}
+    assert batch(TASK, listed, out, kinds=["handout"], **asked).warnings == ()
+
+    again = batch(TASK, listed, out, kinds=["card"], **asked)
+
+    assert "handouts.pdf" not in files(out)
+    assert ["3 (" in warning.text("en") for warning in again.warnings if warning.key == "batch-gone"] == [True]
+    assert batch(TASK, listed, out, kinds=["card"], **asked).warnings == ()
+
+
 def test_problems_of_a_class_are_said_in_the_language_of_messages(tmp_path: Path) -> None:
     with speaking([], "ru"):
         done = batch(TASK, roster(tmp_path, "Bad;MM-21;77;"), tmp_path / "out", lang="uk", jobs=1)

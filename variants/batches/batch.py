@@ -287,8 +287,11 @@ Crew = Callable[[Begin[Student, Outcome], list[Student]], Iterator[list[Done[Out
 
 def _run(
     making: _Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance, merged: Collection[str]
-) -> tuple[Outcome, ...]:
-    """Make what is not there yet; write it, and note it, as it comes; `merged` are files that are made of it later."""
+) -> tuple[tuple[Outcome, ...], list[str]]:
+    """Make what is not there yet; write it, and note it, as it comes; `merged` are files that are made of it later.
+
+    Returned are what has been made, and the files of earlier runs that are gone.
+    """
     for of_kinds in (folder, folder / SOLUTIONS):
         sweep_parts(of_kinds, lambda name: _OWN.match(name) is not None)
     journal = Journal(folder / JOURNAL, Outcome.from_json)
@@ -309,9 +312,9 @@ def _run(
         advance(len(done), len(students))
     outcomes = tuple(found[number] for number in range(len(students)))
     before = (item for outcome in journal.before.values() for item in outcome.files.items())
-    remove_stale(folder, before, {*merged, *(name for outcome in outcomes for name in outcome.files)}, _SUFFIXES)
+    gone = remove_stale(folder, before, {*merged, *(name for outcome in outcomes for name in outcome.files)}, _SUFFIXES)
     journal.keep(zip(digests, outcomes, strict=True))
-    return outcomes
+    return outcomes, gone
 
 
 def _kept(made: Outcome | None, student: Student, folder: Path, language: str) -> Outcome:
@@ -423,7 +426,7 @@ def batch(
         alone = 0 if jobs != 1 else None
         crew = partial(shared_out, jobs=jobs or os.cpu_count() or 1, alike=alike, alone=alone, afresh=making.afresh)
     merged = {kind: f"{making.folder(kind)}{MERGED[kind]}" for kind in making.kinds if merge and kind in MERGED}
-    outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None), merged.values())
+    outcomes, gone = _run(making, students, place, crew, advance or (lambda done, whole: None), merged.values())
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
@@ -431,7 +434,8 @@ def batch(
     groups = of_several_groups(student.entry.who for student in students)
     doubled = shared_by_mistake(works, len(once[0].variants)) if len(once) == 1 else ()
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
-    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice))
+    before = (InputError("batch-gone", n=len(gone), file=quote(gone[0], SHOWN)),) if gone else ()
+    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice, *before))
     for name, rows in _tables(done, once, lang):
         _put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     whole = dict[str, bytes]()
