@@ -49,6 +49,11 @@ class Solved:
         assert isinstance(solved, cls)
         return solved
 
+    @property
+    def scale_of_figure(self) -> Mapping[str, str]:
+        """Symbols of the scale factors of figures apart that may show quantities larger than the plan."""
+        return {}
+
     def point(self, mark: str) -> complex:
         """Return a mark of any plan, SI."""
         return complex(self.values[mark])

@@ -324,5 +324,5 @@ def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]
     scales[DRIVER] = scale
     if 0.0 < crank < CRANK * scale.mu:  # short on the plan: drawn apart, it is larger
         finer = [mu for mu in steps(crank / CRANK / 10.0) if mu <= crank / CRANK]
-        scales[DRIVER] = Scale(f"{scale.symbol}_{solved.mechanism.driver.link}", finer[-1], scale.unit)
+        scales[DRIVER] = Scale(solved.scale_of_figure[DRIVER], finer[-1], scale.unit)
     return scales

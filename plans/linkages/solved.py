@@ -95,6 +95,12 @@ class SolvedLinkage(Solved):
         return PositionError(key, status_word="no-assembly", **data)
 
     @property
+    def scale_of_figure(self) -> Mapping[str, str]:
+        """The symbol of the scale factor of the driver apart, where one that turns is drawn: `mu_l_1`."""
+        driver, plan = self.mechanism.driver, self.scale_of_plan.get(POSITION)
+        return {DRIVER: f"{plan}_{driver.link}"} if plan and isinstance(driver, Driver) else {}
+
+    @property
     def _numbers(self) -> dict[str, float]:
         return {name: value for name, value in self.values.items() if isinstance(value, float)}
 

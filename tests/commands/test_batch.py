@@ -168,7 +168,9 @@ def test_several_groups_over_a_list_or_in_a_cell_are_asked_about(folder: Path, t
     assert "expected a column 'group'" in warning.text("en")
 
 
-@pytest.mark.parametrize("said", ["1", "01", "V01", "В01", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 "])
+@pytest.mark.parametrize(
+    "said", ["1", "01", "V01", "В01", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 ", "1.0", "1,0"]
+)
 @pytest.mark.parametrize("ids", [("1", "2"), ("V01", "V02"), ("v1", "v2"), ("01", "02")])
 def test_a_variant_is_meant_by_its_number_however_it_is_written(said: str, ids: tuple[str, ...]) -> None:
     task = load_task(TASK)
@@ -481,6 +483,10 @@ def entry_of(folder: Path, head: str, row: str) -> Entry:
         ("Student No.,Student name,Class,Variant", "S1042,Ann Lee,ME-3,3", Who("Ann Lee", "ME-3", "S1042")),
         ("Family name,Forename,Matriculation number,Var.", "Lee,Ann,1042,3", Who("Lee Ann", book="1042")),
         ("Прізвище;Ім'я;№ студентського квитка;Вар.", "Лі;Анна;12;3", Who("Лі Анна", book="12")),
+        ("ПІБ;№ залікової;Вар.", "Лі А;12;3", Who("Лі А", book="12")),
+        ("ПІБ;Номер залікової;Вар.", "Лі А;12;3", Who("Лі А", book="12")),
+        ("Student,Reg. No.,Variant", "Ann Lee,12,3", Who("Ann Lee", book="12")),
+        ("Student,Record book no.,Variant", "Ann Lee,12,3", Who("Ann Lee", book="12")),
         ("ФИО;Студенческий билет №;E-Mail address;Вар.", "Ли А;12;a@b.c;3", Who("Ли А", book="12", email="a@b.c")),
     ],
 )

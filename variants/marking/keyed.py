@@ -359,10 +359,12 @@ class Keyed:
 
         Where that of the figure on which the sheet shows it is `written`, it is that.
         """
-        question, item = self.key.questions.get(name), self.solution.quantities.get(name)
+        question, item, solved = self.key.questions.get(name), self.solution.quantities.get(name), self.solution.solved
+        if (own := solved.scale_of_figure.get(solved.shown_on.get(name, ""))) in written:
+            return own or ""
         if item is not None and item.scale in written:
             return item.scale or ""
-        return "" if question is None else self.solution.solved.scale_of_plan.get(question.plan, "")
+        return "" if question is None else solved.scale_of_plan.get(question.plan, "")
 
     @cached_property
     def needed(self) -> dict[str, float]:
@@ -414,6 +416,8 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
         name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != "%"
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
+    figures, shown_on = solution.solved.scale_of_figure, solution.solved.shown_on  # of any variant
+    scales |= {figures[shown_on[name]]: q.unit for name, q in quantities.items() if shown_on.get(name) in figures}
     return Asked(quantities, scales, _display_of(solution))
 
 
