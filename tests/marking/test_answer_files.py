@@ -102,7 +102,8 @@ def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, nam
     names = [row[0] for row in rows if row[0] in ASKED.names]
     assert [len(row) for row in rows if row[0] in ("quantity", "величина")] == [8]
     assert names.index("V_A") < names.index("V_B") < names.index("omega_2") < names.index("a_B") < names.index("R_12")
-    assert {*names} == {name for name in ASKED.names if "_couple_" not in name}
+    ours = {name for name in ASKED.names if "_couple_" not in name} - {"mu_l_1"}  # of variants with a short crank
+    assert {*names} == ours
     assert form(tmp_path, f"b{file.suffix}", language).read_bytes() == file.read_bytes()
     with pytest.raises(InputError, match="the form is empty"):
         _read_answers(file, ASKED)
