@@ -48,7 +48,7 @@ ROUNDS, GAIN = 40, 1e-3  # moves of views to other pages, and parts of a page th
 LATE, FARTHER = 2e-3, 0.1  # parts of a page that it costs that a text is a page late, or early or yet later
 EVENER = 0.01  # the same, for the sake of even pages
 AHEAD = 0.05  # of what moves a page ahead for a last one with texts alone, as a gain
-PIECES = 4  # rows or lines at least on each page
+PIECES = 3  # rows or lines at least on each page
 
 
 def on_a_page(
