@@ -12,7 +12,7 @@ import pytest
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LTTextContainer
 
-from kulman import batch, check, load_task
+from kulman import batch, check, load_task, solve
 from kulman.scales.errors import InputError, speaking
 from kulman.tests.support.commands import Run, files, roster, table
 from kulman.variants.batches.batch import Outcome, Student, _Making
@@ -251,6 +251,33 @@ def test_the_key_is_marked_right(lang: str, tmp_path: Path) -> None:
     marks = [asked.mark(answers).marked.mark for answers in asked.read(str(out / "key.csv"))]
 
     assert marks == [100.0, 100.0, 100.0]
+
+
+@pytest.mark.parametrize(
+    ("task", "kind", "only", "format"),
+    [
+        (TASK, "handout", "position,velocity", None),
+        (TASK, "card", None, None),
+        (TASK, "handout", "velocity", "A3"),  # blanks are A4 all the same
+        ("madi-cam", "svg", None, "A4"),  # whose diagrams are smaller there
+        ("madi-gear", "handout", None, None),
+    ],
+)
+def test_the_key_has_the_numbers_of_the_paper_that_students_have(
+    task: str, kind: str, only: str | None, format: str | None, tmp_path: Path
+) -> None:
+    right = solve(task, only=only, format="A4", lang="en")
+
+    file, how = roster(tmp_path, f"A;;{right.variant};"), {"only": only, "format": format, "lang": "en"}
+    batch(task, file, tmp_path / "out", kinds=[kind], jobs=1, **how)
+
+    (row,) = table(next((tmp_path / "out").rglob("key.csv")))
+    lengths = {head.removesuffix(".mm"): float(text) for head, text in row.items() if head.endswith(".mm") and text}
+    values = {head.partition(" [")[0]: float(text) for head, text in row.items() if "[" in head and text}
+    shown = {name: quantity.shown(right.words.display) for name, quantity in right.items()}
+    assert lengths
+    assert lengths == pytest.approx({name: quantity.mm for name, quantity in right.items() if name in lengths})
+    assert values == pytest.approx({name: shown[name].value for name in values})
 
 
 def test_only_what_is_missing_or_has_changed_is_made_again(tmp_path: Path, made: list[int]) -> None:

@@ -149,6 +149,7 @@ class _Work:
 
     case: Case
     drawing: Drawn
+    on_blanks: bool  # whether students have blanks or cards before them, whatever stands in the folder of solutions
 
     @cached_property
     def body(self) -> tuple[Block, ...]:
@@ -172,12 +173,14 @@ class _Work:
 
     @cached_property
     def key(self) -> dict[str, float | None]:
-        """The right values in the units in which they are shown, and the segments on the sheet, mm.
+        """The right values in the units in which they are shown, and the segments on what students have, mm.
 
         The names are those of the columns in which a class hands in its answers.
         """
         case, found = self.case, dict[str, float | None]()
-        for name, quantity in measured(case.solved.quantities, case.solved.shown_on, self.drawing.scales).items():
+        drawing = self.blank if self.on_blanks else self.drawing
+        solved, _ = case.kind.fitted(case.solved, drawing)
+        for name, quantity in measured(solved.quantities, solved.shown_on, drawing.scales).items():
             if quantity.kind != "point":
                 shown = quantity.shown(case.display)
                 unit = format_unit(shown.unit, case.language)
@@ -277,7 +280,7 @@ class _Making:
             asked = self.asked[entry.task]
             settings = {**(asked.settings or {}), **entry.settings}
             case = replace(asked, variant=entry.variant, settings=settings).case()
-            return _Work(case, drawing_of(case))
+            return _Work(case, drawing_of(case), not FOR_STUDENTS.isdisjoint(self.kinds))
 
         return self._works.get(data, make)
 
