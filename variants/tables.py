@@ -422,12 +422,16 @@ def save_form(
     """Save rows to be filled in; a file of the name that holds anything else, as one that is filled in, stays."""
 
     def made(path: Path) -> Files:
-        data = table_bytes(path, rows, language, title, bold, frozen, _HANDY if frozen == 1 else _LINE)
-        if path.is_file() and path.read_bytes() != data:
-            raise InputError("output-exists", file=quote(path, SHOWN))
-        return [(path, data)]
+        return fresh(path, table_bytes(path, rows, language, title, bold, frozen, _HANDY if frozen == 1 else _LINE))
 
     return save_all((file,), known, made)[0]
+
+
+def fresh(path: Path, data: bytes) -> Files:
+    """Return a file that people go on with; one of its name that holds anything else is theirs: an `InputError`."""
+    if path.is_file() and path.read_bytes() != data:
+        raise InputError("output-exists", file=quote(path, SHOWN))
+    return [(path, data)]
 
 
 def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:

@@ -218,6 +218,19 @@ def test_a_file_of_new_variants_is_called_by_its_own_name(folder: Path, run: Run
     assert run("check", "АТ-301 осінь.toml", "printed")[0] == 2  # another task's answers
 
 
+@pytest.mark.parametrize(("lang", "said"), [("uk", "не змінено"), ("ru", "не изменён"), ("en", "left as it is")])
+def test_a_file_of_new_variants_that_has_been_edited_stays(lang: str, said: str, folder: Path, run: Run) -> None:
+    asked = ("variants", TASK, "--make", "1", "-o", "class.toml", "-o", "key.csv", "--lang", lang)
+    assert [run(*asked)[0] for _ in range(2)] == [0, 0]  # the same again is no other file
+    edited, key = (file := Path("class.toml")).read_text("utf-8") + "# ours\n", Path("key.csv").read_bytes()
+    file.write_text(edited, encoding="utf-8")
+
+    status, _, err = run(*asked, "--seed", "2")
+
+    assert (status, err.startswith("class.toml: "), said in err) == (2, True, True)
+    assert (file.read_text("utf-8"), Path("key.csv").read_bytes()) == (edited, key)
+
+
 @pytest.mark.parametrize("x_1", [pytest.param("0.2", id="drawn"), pytest.param("-3", id="refused")])
 def test_pages_are_counted_though_the_first_variant_of_a_task_is_refused(x_1: str) -> None:
     task = task_of(with_changes(load_task("madi-gear").text, ("x_1 = 0.2", f"x_1 = {x_1}")))

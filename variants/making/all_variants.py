@@ -25,7 +25,7 @@ from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, is_arm_of_lever, keyed
 from ..marking.report import DIGITS, page, scripts
 from ..marking.wording import plain, texts
-from ..tables import FILES, Cell, Result, Table, aligned
+from ..tables import FILES, Cell, Result, Table, aligned, fresh
 from ..task import AnyTask
 from .new_variants import NewVariants, import_variants, make_variants
 from .questions import BY, Question, gift_bytes, html, questions_of, xml_bytes
@@ -110,7 +110,7 @@ class AllVariants(Result):
         if suffix == TASK_FILE:
             if self.new is None:
                 raise InputError("variants-new", file=quote(path))
-            return [(path, called(spoken(self.new.task, self.new.text, self._language), path).encode("utf-8"))]
+            return fresh(path, called(spoken(self.new.task, self.new.text, self._language), path).encode("utf-8"))
         if suffix == PAGE:
             return [(path, self._page().encode("utf-8"))]
         if suffix in FILES:
