@@ -197,7 +197,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
         sized = []
         for figure in self.figures(scene, width):
-            key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
+            key = sheet, self.stated, figure.name, *(rungs[ladder] for ladder in figure.ladders)
             if key not in self._drawn:
                 self._drawn[key] = replace(figure.draw(scene), about=figure.about)
             sized.append((self._drawn[key], figure))

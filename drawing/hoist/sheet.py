@@ -100,7 +100,6 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         if not stated:
             return found
         self.stated = True
-        self._drawn.clear()
         return self.in_order(sheet, found[0])
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:

@@ -260,7 +260,7 @@ def test_the_key_is_marked_right(lang: str, tmp_path: Path) -> None:
         (TASK, "card", None, None),
         (TASK, "handout", "velocity", "A3"),  # blanks are A4 all the same
         ("madi-cam", "svg", None, "A4"),  # whose diagrams are smaller there
-        ("madi-gear", "handout", None, None),
+        ("karpenko-hoist", "handout", None, None),
     ],
 )
 def test_the_key_has_the_numbers_of_the_paper_that_students_have(

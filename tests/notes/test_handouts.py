@@ -170,17 +170,20 @@ def test_a_paper_speaks_of_what_it_asks_for() -> None:
     assert not any("μ_{l}" in line for view in velocities.views for line in view.heading)
 
 
-@pytest.mark.parametrize("task", some([TASK, "scheme-09-shaper", "scheme-14-jaw-crusher"], 0, 1))
+@pytest.mark.parametrize("task", some([TASK, "scheme-09-shaper", "karpenko-hoist", "scheme-14-jaw-crusher"], 0, 1, 2))
 def test_blank_form_and_solution_have_the_same_scale_factors(task: str) -> None:
-    blank = handout(task, only="velocity")
+    asked = {"only": None if "hoist" in task else "velocity", "lang": "en"}
+    blank = handout(task, **asked)
 
-    solution = solve(task, only="velocity", format=PAPER)
+    solution = solve(task, **asked, format=PAPER)
 
-    for scale in (blank.scales[plan] for plan in ("position", "velocity")):
+    plans = [plan for plan in solution.solved.scale_of_plan if plan in blank.scales]
+    assert len(plans) > 1
+    for scale in (blank.scales[plan] for plan in plans):
         assert solution.scales[scale.symbol] == scale
     if any("l_{CA}" in row for view in blank.views for row in view.rows):  # taken off the scheme
         scheme = next(view for view in blank.views if view.name == "kinematic")
-        assert Words.of("uk").scale(blank.scales["position"]) in scheme.heading
+        assert Words.of("en").scale(blank.scales["position"]) in scheme.heading
 
 
 def test_what_a_task_fixes_stays_on_a_blank() -> None:
