@@ -324,6 +324,12 @@ class _Search:
         return self.as_said.by_value()
 
     @cached_property
+    def wrong_by_value(self) -> frozenset[str]:
+        """The lines that are wrong by their values alone."""
+        lines = self.by_value.under(self.marking.key) or ()
+        return frozenset(line.name for line in lines if line.verdict.faulty)
+
+    @cached_property
     def moved(self) -> NDArray[np.bool_]:
         """Which lines each mistake moves by more than a tolerance, of shape (mistakes, questions)."""
         book, told = self.book, self.said.way != 0.0
@@ -366,7 +372,8 @@ class _Search:
         again = judged.under(key_of(self.book.key, last), first or str(self.marking.first_wrong), self.faulty)
         if again is None:
             return None
-        left = tuple(line.name for line in again if line.verdict.faulty)
+        wrong = self.wrong_by_value if by_scale else self.faulty.keys()  # no scale makes millimetres alone wrong
+        left = tuple(line.name for line in again if line.verdict.faulty or line.name in self.faulty.keys() - wrong)
         explained = tuple(name for name in self.faulty if name not in left)
         if not explained:
             return None

@@ -18,6 +18,7 @@ from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import Book, Signature, broken, signatures
 from kulman.plans.mistakes.explaining import Candidate, _Explanation, explain
+from kulman.plans.mistakes.rules import BY_SCALE
 from kulman.tests.support.cases import some
 from kulman.tests.support.marking_cases import LINKAGES, answer, key, mistakes, moves, planted, right_answers
 from kulman.tests.support.mechanisms import SEED
@@ -171,6 +172,26 @@ def test_digits_are_exchanged_where_the_other_order_is_the_number_that_was_meant
         marked = asked.mark({**right, name: value}).marked
         assert marked.marking.first_wrong == name
         assert [*(marked.candidates[0].ids if marked.candidates else ())] == ids
+
+
+@pytest.mark.parametrize("slip", [{"V_A": "V_BA", "V_BA": "V_A"}, {"V_B": 100.0}], ids=["exchanged", "no comma"])
+@pytest.mark.parametrize("task", some((EXAMPLE, "scheme-01-compressor", "scheme-04-v-engine"), 0, 1))
+def test_wrong_millimetres_beside_right_values_are_no_mistake_of_scales_elsewhere(
+    task: str, slip: dict[str, str | float]
+) -> None:
+    of = key(task)
+    mus = {plan: 2.0 * mu for plan, mu in of.paper.mus.items()}
+    said = {
+        name: Answer(name, mm=round(abs(of[name]) / mus[one.plan], 1), mu=mus[one.plan], value=abs(of[name]))
+        for name, one in of.questions.items()
+        if one.plan in ("velocity", "acceleration") and one.vector
+    }
+    wrong = {name: said[by].mm if isinstance(by, str) else (said[name].mm or 0.0) * by for name, by in slip.items()}
+
+    found = explained(task, [replace(one, mm=wrong.get(one.name, one.mm)) for one in said.values()])
+
+    assert {line.name for line in found.marking.lines if line.verdict.faulty} == {*slip}
+    assert not [one for candidate in found.candidates for one in candidate.ids if one in BY_SCALE and one != "M123"]
 
 
 def test_unlike_slips_are_not_explained_by_a_chain_of_more_mistakes_than_lines() -> None:
