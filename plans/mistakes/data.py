@@ -1,4 +1,4 @@
-"""Data, units, position, scales and reading: mistakes M01 to M22, M74, M117, M123 and M126."""
+"""Data, units, position, scales and reading: mistakes M01 to M22, M74, M117, M123 and M126 to M128."""
 
 from __future__ import annotations
 
@@ -280,6 +280,9 @@ mistake("M19")(lambda scene: [scaled(PRINTED, *_readings(scene), at="")])
 mistake("M123", by_scale=True)(lambda scene: ())
 # the other direction is taken as positive: that hangs on all senses and directions of a student
 mistake("M126")(lambda scene: ())
+# numbers of two lines are exchanged, a decimal comma is lost: they hang on the numbers, as those with two digits do
+mistake("M127")(lambda scene: ())
+mistake("M128")(lambda scene: ())
 
 
 def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
@@ -288,9 +291,9 @@ def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
     return Broken("M123", scene.paper, scaled(abs(written / meant), step, how=f"{meant:.4g}", at=name))
 
 
-def opposed(scene: Scene, name: str) -> Broken:
-    """Return the construction as it is, of which all senses were written opposite, that of a quantity first."""
-    return Broken("M126", scene.paper, Change(name, {}))
+def miswritten(number: str, scene: Scene, name: str) -> Broken:
+    """Return the construction as it is, of which numbers or senses were written otherwise, of a quantity first."""
+    return Broken(number, scene.paper, Change(name, {}))
 
 
 def other_orders(number: float) -> Iterator[tuple[float, float]]:

@@ -24,7 +24,7 @@ from ..marking.answers import DIRECTION, FREE, Answer, Line, Said, Verdict, know
 from ..marking.key import Key
 from ..marking.verdicts import CLEAR, RATES, Marking, judge
 from .book import Book, Complex, Floats, Signature, key_of, signatures
-from .data import opposed, other_orders, transposed
+from .data import miswritten, other_orders, transposed
 from .rules import BY_SCALE, Broken, Scene, broken
 
 MOST = 4.0  # tolerances beyond which a miss counts no more
@@ -50,6 +50,9 @@ OPPOSITE: tuple[tuple[bool, Callable[[float], float] | None], ...] = (
     *((True, None), (False, neg), (False, math.pi.__add__), (True, neg), (True, math.pi.__add__)),
 )
 TURNING = (*RATES, "N*m")
+# what of a line may stand in another one: a number, all numbers, the whole line; and where a decimal comma may be lost
+PLACES = (("mm",), ("value", "rounded"), ("mm", "value", "rounded"), ("mm", "value", "rounded", "direction"))
+COMMAS = (0.1, 0.01)
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,6 +188,10 @@ class _Search:
         if (other := self._opposed()) is not None:  # told once, and not as a chain of mistakes
             alone = (one for one in candidates if len(one.mistakes) == 1 and not one.left and one.misses <= 1.0)
             candidates = (*alone, other)
+        elif (written := self._miswritten()) is not None and self._tells(written):
+            fits = any(one.fits and len(one.chain) == 1 for one in found)
+            others = [one for one in candidates if len(one.mistakes) == 1]
+            candidates = (*others, written) if fits else (written, *others)
         return _Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
 
     def _tells(self, candidate: Candidate) -> bool:
@@ -208,13 +215,50 @@ class _Search:
             if sum(before) < TELLING or any(_astray(key, *one) for one in changed):
                 continue
             lines = judge(key, turned) or ()
-            left = tuple(line.name for line in lines if line.verdict.faulty)
-            explained = tuple(name for name in self.faulty if name not in left)
-            if explained and not any(line.verdict.faulty and line.about == DIRECTION for line in lines):
-                off = np.array([min(line.off, MOST) for line in lines if line.answer is not None])
-                mistake = opposed(Scene(key.paper, key.values), explained[0])
-                return Candidate((mistake,), (), explained, left, float(np.sqrt(np.mean(off * off))))
+            found = self._written("M126", lines)
+            if found is not None and not any(line.verdict.faulty and line.about == DIRECTION for line in lines):
+                return found
         return None
+
+    def _miswritten(self) -> Candidate | None:
+        """Return that the first wrong line has the numbers of another one, which has its own; or has lost a comma."""
+        key, lines = self.marking.key, self.marking.lines
+        first, said = lines[self.first], {line.name: line.answer for line in lines if line.answer is not None}
+        own, tried = said[first.name], list[tuple[str, dict[str, Answer]]]()
+        for line in lines:
+            if (other := line.answer) is None or line.name not in self.faulty or line.name == first.name:
+                continue
+            for parts in PLACES if key.questions[line.name].unit == key.questions[first.name].unit else ():
+                if own.mm is not None or other.mm is not None or parts == PLACES[1]:
+                    there, here = ({part: getattr(one, part) for part in parts} for one in (own, other))
+                    tried.append(("M127", {first.name: replace(own, **here), line.name: replace(other, **there)}))
+        for parts in PLACES[:2]:
+            for times in COMMAS if getattr(own, parts[0]) else ():
+                shifted: dict[str, Any] = {part: times * (getattr(own, part) or 0.0) for part in parts}
+                tried.append(("M128", {first.name: replace(own, **shifted)}))
+        for number, meant in tried:
+            if all(self._near(self.marking[name], answer) for name, answer in meant.items()):
+                found = self._written(number, judge(key, (said | meant).values()) or ())
+                if found is not None and meant.keys() <= {*found.explained} and self.faulty.keys() >= {*found.left}:
+                    return found
+        return None
+
+    def _near(self, line: Line, answer: Answer) -> bool:
+        """Whether each number of an answer is about as large as is right for a line."""
+        measured = answer.measured(self.mus.get(line.plan))
+        sizes = [answer.value] if answer.value is not None and known(answer.value) else []
+        sizes += [nearest(measured, abs(line.right))] if measured and line.right else []
+        return bool(sizes) and all(abs(abs(x) - abs(line.right)) <= line.allowed + CLOSE * abs(x) for x in sizes)
+
+    def _written(self, number: str, lines: Sequence[Line]) -> Candidate | None:
+        """Return a mistake of writing, after which the lines are judged as meant; None where it explains nothing."""
+        key, left = self.marking.key, tuple(line.name for line in lines if line.verdict.faulty)
+        explained = tuple(name for name in self.faulty if name not in left)
+        if not explained:
+            return None
+        off = np.array([min(line.off, MOST) for line in lines if line.answer is not None])
+        mistake = miswritten(number, Scene(key.paper, key.values), explained[0])
+        return Candidate((mistake,), (), explained, left, float(np.sqrt(np.mean(off * off))))
 
     def _alone(self, made: Iterable[Signature]) -> list[_Found]:
         """Return the single mistakes that explain the first wrong line."""

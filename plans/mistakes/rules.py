@@ -1,6 +1,6 @@
 """Rules that can be broken: each a rewrite of the same construction, found to apply from its steps alone.
 
-The mistakes have numbers, M01 to M126. The other modules here, a chapter each, enter their rules into `MISTAKES`.
+The mistakes have numbers, M01 to M128. The other modules here, a chapter each, enter their rules into `MISTAKES`.
 """
 
 from __future__ import annotations

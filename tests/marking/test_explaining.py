@@ -174,10 +174,13 @@ def test_digits_are_exchanged_where_the_other_order_is_the_number_that_was_meant
         assert [*(marked.candidates[0].ids if marked.candidates else ())] == ids
 
 
-@pytest.mark.parametrize("slip", [{"V_A": "V_BA", "V_BA": "V_A"}, {"V_B": 100.0}], ids=["exchanged", "no comma"])
+@pytest.mark.parametrize("parts", [("mm",), ("value",), ("mm", "value")], ids=" ".join)
+@pytest.mark.parametrize(
+    ("slip", "id"), [({"V_A": "V_BA", "V_BA": "V_A"}, "M127"), ({"V_B": 100.0}, "M128")], ids=["exchanged", "no comma"]
+)
 @pytest.mark.parametrize("task", some((EXAMPLE, "scheme-01-compressor", "scheme-04-v-engine"), 0, 1))
-def test_wrong_millimetres_beside_right_values_are_no_mistake_of_scales_elsewhere(
-    task: str, slip: dict[str, str | float]
+def test_numbers_of_two_lines_exchanged_and_lost_commas_are_named_and_no_scales_elsewhere(
+    task: str, slip: dict[str, str | float], id: str, parts: tuple[str, ...]
 ) -> None:
     of = key(task)
     mus = {plan: 2.0 * mu for plan, mu in of.paper.mus.items()}
@@ -186,12 +189,19 @@ def test_wrong_millimetres_beside_right_values_are_no_mistake_of_scales_elsewher
         for name, one in of.questions.items()
         if one.plan in ("velocity", "acceleration") and one.vector
     }
-    wrong = {name: said[by].mm if isinstance(by, str) else (said[name].mm or 0.0) * by for name, by in slip.items()}
+    wrong = dict(said)
+    for name, by in slip.items():
+        for part in parts if id == "M127" else parts[-1:]:
+            number = getattr(said[by], part) if isinstance(by, str) else getattr(said[name], part) * by
+            wrong[name] = replace(wrong[name], **{part: number})
 
-    found = explained(task, [replace(one, mm=wrong.get(one.name, one.mm)) for one in said.values()])
+    found = explained(task, [*wrong.values()])
 
-    assert {line.name for line in found.marking.lines if line.verdict.faulty} == {*slip}
-    assert not [one for candidate in found.candidates for one in candidate.ids if one in BY_SCALE and one != "M123"]
+    assert [one.mistake for one in found.candidates[0].mistakes] == [id]
+    assert {*found.candidates[0].explained} == {*slip}
+    assert len([line for line in found.marking.lines if line.verdict.faulty]) == 1
+    by_value = parts != ("mm",)  # where a scale may be wrong as well
+    assert by_value or not [one for other in found.candidates for one in other.ids if one in BY_SCALE]
 
 
 def test_unlike_slips_are_not_explained_by_a_chain_of_more_mistakes_than_lines() -> None:
