@@ -232,6 +232,23 @@ def test_a_plan_is_missing_where_it_begins_nothing_is_drawn_and_not_judged_where
     assert "nothing is drawn" not in found["faint"][1]
 
 
+def test_a_page_on_which_nothing_is_drawn_is_said_to_be_blank_and_one_drawn_faintly_is_not(tmp_path: Path) -> None:
+    sheet, ready = sheet_for(TASK), check(TASK, "0", lang="en")
+    ways, (number, _) = chosen_ways(sheet, RIGHT), sheet.poles["velocity"]
+
+    def result(how: str, *plans: str) -> Result:
+        random = np.random.default_rng(7)
+        ink, _ = drawn(sheet, number, random, {plan: ways[plan] for plan in plans}, faint={*plans})
+        (tmp_path / f"{how}.jpg").write_bytes(photographed(ink, random, SCANNER))
+        return result_of(ready.mark(*ready.read(str(tmp_path / f"{how}.jpg"))).marked, "en")
+
+    with pytest.raises(InputError) as error:
+        result("blank")
+
+    assert error.value.key == "photo-blank"
+    assert result("faint", "velocity").mark is not None
+
+
 def test_what_somebody_of_a_class_has_drawn_is_asked_of_all(tmp_path: Path) -> None:
     both = pages_of(None, "velocity", "forces_23")
     for name in ("Koval-2", "Bondar-2", "Melnyk-2"):

@@ -189,7 +189,8 @@ def measured(
     recognised = found.recognised
     sure = max((plan.quality for plan in recognised.plans.values()), default=0.0) >= SURE
     if not (recognised.vectors and sure) and not found.fits:
-        raise _unknown(answers)
+        plans = {question.plan for part in key.parts for question in part.asked if question.vector}
+        raise _unknown(answers, blank=bool(absent) and plans <= {*(absent or ())})
     lines = {}
     for name, vector in recognised.vectors.items():
         way, mu = vector.tip - vector.tail, Mu(found.mus[vector.plan], sure=True)
@@ -212,10 +213,12 @@ def measured(
     return replace(answers, lines=lines, columns=columns), notes
 
 
-def _unknown(answers: Answers) -> InputError:
-    """Return why nothing of the task was recognised: by its size a drawing may have been saved in another unit."""
-    file, drawn = quote(answers.source, SHOWN), answers.drawn
-    longest = 0.0 if drawn is None else float(abs(drawn.tips - drawn.tails).max(initial=0.0))
+def _unknown(answers: Answers, blank: bool) -> InputError:
+    """Return why nothing of the task was recognised: pages may be `blank`, a drawing saved in another unit."""
+    file, drawn = quote(answers.source, SHOWN), None if answers.photos else answers.drawn
+    if blank:
+        return InputError("photo-blank", file=file)
+    longest = LEAST if drawn is None else float(abs(drawn.tips - drawn.tails).max(initial=0.0))
     if longest > LARGEST or longest < LEAST:
         return InputError("drawing-size", file=file, n=round(longest))
     return InputError("drawing-unknown", file=file)
