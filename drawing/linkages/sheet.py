@@ -53,6 +53,7 @@ TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 MOST = 2  # texts and tables that may stand beside the statement of a task
 WRITTEN = 8.0  # mm of a row in which an answer is written by hand
 LEAF, COARSER = 2, 4  # pages of a leaf; scale factors that are tried for them
+MUCH = 2.5 + 1e-9  # times as coarse as for its plan alone: rather than more a blank has a page for each plan
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 
 
@@ -307,21 +308,36 @@ def _enlarged(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Dr
 def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | None:
     """Place a blank of few plans on a leaf: at the scale factors that `solve` shows, or at the next ones.
 
-    Its statement is on the first page. The sheet on the same format has these scale factors, too.
+    Where a plan would be much smaller than alone there is a page for each. The sheet on the same format has these scale
+    factors, too.
     """
     if sheet.letters != SIZES[0] or not {*contents.plans} <= {POSITION, *PLANS} or contents.cycle or contents.dead:
         return None
     fitting = _Fitting(contents, stated=True)
     _, wanted, _ = next(ways_of(fitting.extents, None))
     ladders = fitting.extents.ladders
-    own = {fitting.extents.root(contents.solved.scale_of_plan[plan]) for plan in contents.plans}
-    tops = {symbol: len(ladders[symbol].values) - 1 for symbol in own if ladders[symbol].free}
-    for coarser in range(COARSER):
-        rungs = wanted | {symbol: min(wanted[symbol] + coarser, top) for symbol, top in tops.items()}
-        with suppress(InputError):
-            found = _stated(fitting, printable(sheet), rungs)
-            if found is not None and last(found[2]) < LEAF and found[1] == rungs:
-                return fitting, found
+    plans = {contents.solved.scale_of_plan[plan]: plan for plan in contents.plans}
+    alone, steps_of = dict[str, float](), dict[str, Sequence[float]]()
+    for symbol in dict.fromkeys(map(fitting.extents.root, plans)):
+        if ladders[symbol].free:
+            plan = plans.get(symbol, POSITION)
+            figure = replace(extents_of(contents.solved, contents.choosers, (plan,)), texts=0.0)
+            alone[symbol] = figure.mu(symbol, next(ways_of(figure, None))[1])
+            steps_of[symbol] = ladders[symbol].values[wanted[symbol] :][:COARSER]
+
+    def coarser(by: Sequence[int]) -> list[float]:
+        return sorted((mus[k] / alone[s] for k, (s, mus) in zip(by, steps_of.items(), strict=True)), reverse=True)
+
+    every = sorted(product(*(range(len(mus)) for mus in steps_of.values())), key=coarser)
+    near = [by for by in every if max(coarser(by), default=1.0) <= MUCH]
+    # a leaf, or a page for each plan where plans would be much smaller on it, or whatever a leaf can hold
+    for tried, pages in ((near, LEAF), (near, 1 + len(contents.plans)), (every, LEAF)):
+        for by in tried:
+            rungs = wanted | {symbol: wanted[symbol] + k for symbol, k in zip(steps_of, by, strict=True)}
+            with suppress(InputError):
+                found = _stated(fitting, printable(sheet), rungs)
+                if found is not None and last(found[2]) < pages and found[1] == rungs:
+                    return fitting, found
     return None
 
 

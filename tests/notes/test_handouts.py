@@ -186,6 +186,23 @@ def test_blank_form_and_solution_have_the_same_scale_factors(task: str) -> None:
         assert Words.of("en").scale(blank.scales["position"]) in scheme.heading
 
 
+CRUSHER = ("scheme-14-jaw-crusher", "4", {"l_OA": "38 mm", "l_BD": 330, "phi": 105}, 3)
+SHAPER, PRESS = ("scheme-09-shaper", "1", {}, 3), ("scheme-13-toggle-press", "4", {}, 3)
+LEAF = [(name, None, {}, 2) for name in (TASK, "scheme-03-crank-rocker", "scheme-17-sewing-machine")]
+
+
+@pytest.mark.parametrize(("task", "variant", "settings", "most"), some([CRUSHER, SHAPER, PRESS, *LEAF], 0, 1, 5))
+def test_a_plan_is_not_much_smaller_beside_another_than_alone_on_a_blank(
+    task: str, variant: str | None, settings: dict[str, Any], most: int
+) -> None:
+    both = handout(task, variant, set=settings, only="position,velocity")
+
+    assert len(both.pages) <= most
+    for plan in ("position", "velocity"):
+        alone = handout(task, variant, set=settings, only=plan)
+        assert both.scales[plan].mu <= 2.501 * alone.scales[plan].mu
+
+
 def test_what_a_task_fixes_stays_on_a_blank() -> None:
     blank = handout("madi-four-bar", only="velocity,acceleration")
 
