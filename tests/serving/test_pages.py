@@ -15,6 +15,7 @@ import pytest
 from starlette.testclient import TestClient
 
 import kulman
+from kulman.tests.support.answer_files import write
 from kulman.variants.marking.checks import write_tables
 from kulman.variants.marking.report import report_html
 from kulman.variants.shelf import bundled, bundled_text, guide_text, guides
@@ -200,6 +201,20 @@ def test_answers_are_marked_as_the_command_marks_them(client: TestClient, tmp_pa
     assert "<li>V_B: &#x27;abc&#x27; is not a number" in report
     nothing = client.post(f"/task/{TASK}/check?v=3", data={})
     assert re.search('role="alert"[^>]*>(<[^>]+>)*the form is empty', nothing.text)
+
+
+def test_the_saved_form_is_handed_in_with_data_of_ones_own(client: TestClient, tmp_path: Path) -> None:
+    own = kulman.solve(TASK, "3", set={"l_OA": "55 mm"})
+    rows = [["quantity", "value"], ["V_A", own["V_A"].value], ["V_B", own["V_B"].value]]
+    book = write(tmp_path, rows, ".xlsx")
+
+    said = [
+        client.post(f"/task/{TASK}/check?{query}", files={"drawing": ("answers.xlsx", book.read_bytes())})
+        for query in ("v=3&of=3&g.l_OA=55", "v=3")
+    ]
+    reports = [client.get(one.headers["location"].removeprefix(client.base_url.path.rstrip("/"))).text for one in said]
+
+    assert [re.findall(r"Lines:[^<]*", report)[0].count("right 2") for report in reports] == [1, 0]
 
 
 def test_a_drawing_is_handed_in_where_a_form_is(client: TestClient, tmp_path: Path) -> None:

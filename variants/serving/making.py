@@ -24,7 +24,6 @@ from ..batches.batch import batch, write_roster
 from ..case import Kind, Request, kind_of
 from ..charts.charts import chart
 from ..crew import Advance, shared_out
-from ..drawings.files import SUFFIXES as DRAWINGS
 from ..kinds import MODULES
 from ..making.questions import bare_page
 from ..making.starter import start
@@ -38,7 +37,6 @@ from ..marking.report import PHOTOS, report_html
 from ..marking.result import class_lines
 from ..notes import note
 from ..photos.asking import Asking, EndAsk, PageAsk, Told, ends_asked, gathered
-from ..photos.pictures import PICTURES
 from ..photos.returned import stacked
 from ..reader import check_file, load_task
 from ..roster import read_roster
@@ -358,8 +356,7 @@ class Handed:
         usual = _request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
         ready = check(task, **{**usual, "lang": asked.language}, roster=listed, rubric=weights, **self.how)
         Path("forms").mkdir()
-        known = (*DRAWINGS, *PICTURES) if self.alone else ANSWERS
-        names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", known) for n, one in enumerate(self.files, 1)]
+        names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", ANSWERS) for n, one in enumerate(self.files, 1)]
         found, asks = gathered(ready.read(*names, warn=notes.append), ready.roster, told, self.alone)
         return _Read(ready, ready.ordered(found), asks, notes)
 
@@ -375,7 +372,7 @@ class _Read:
 
 
 def answered_by_files(advance: Advance, handed: Handed, told: Told) -> tuple[str, Asking, tuple[bytes, ...]]:
-    """Return the report on drawings or photographs of a student, as a page with them in it; what is asked of them.
+    """Return the report on a form, drawings or photographs of a student, as a page with them in it; what is asked.
 
     Photographs come back with verdicts over them, as PDF and PNG, several PNG in one archive.
     """

@@ -367,7 +367,7 @@ def form(
             **how,
         )
 
-    known = f"{DRAWINGS},{PHOTOS}"
+    known = f"{TABLES},{DRAWINGS},{PHOTOS}"
     drawing = _file(door, "drawing", "form.drawing", known, several=True, required=True, hint="form.drawing_hint")
     both = asked(tag("div", table, class_="scroll"), "preset"), asked(drawing, "hand", enctype="multipart/form-data")
     title = said["form.title"]
