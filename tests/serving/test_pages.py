@@ -274,4 +274,8 @@ def test_a_class_is_marked_as_the_command_marks_it(client: TestClient, tmp_path:
     assert made["moodle.csv"] == (tmp_path / "moodle.csv").read_bytes()
     assert {"class.html", "gradebook.xlsx"} < {*made}
     assert "І. Петренко" in client.get(f"{page}/class.html").text
+    forms.insert(1, ("forms", ("letter.txt", b"read me")))
+    again = finished(client, client.post("/marks", data={"tasks": TASK}, files=[*forms, ("roster", ("r.csv", ROSTER))]))
+    assert unpacked(client.get(f"{again}/{again.rpartition('/')[2]}.zip").content)["moodle.csv"] == made["moodle.csv"]
+    assert "letter.txt" in client.get(again).text
     assert "І. Петренко" in client.get(page).text

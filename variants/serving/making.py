@@ -356,7 +356,14 @@ class Handed:
         usual = _request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
         ready = check(task, **{**usual, "lang": asked.language}, roster=listed, rubric=weights, **self.how)
         Path("forms").mkdir()
-        names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", ANSWERS) for n, one in enumerate(self.files, 1)]
+        names = list[str]()
+        for n, one in enumerate(self.files, 1):
+            try:
+                names.append(one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", ANSWERS))
+            except InputError as error:  # the others are read all the same
+                if n == len(self.files) and not names:
+                    raise
+                notes.append(error)
         found, asks = gathered(ready.read(*names, warn=notes.append), ready.roster, told, self.alone)
         return _Read(ready, ready.ordered(found), asks, notes)
 
