@@ -139,16 +139,16 @@ def test_normal_part_drawn_the_wrong_way_is_read_as_drawn() -> None:
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("seed", [1, 2])  # errors of 0.1 mm let one drawing pass and another miss by a hair
-def test_vectors_are_found_in_most_tasks(seed: int) -> None:
+def test_vectors_are_found_in_most_tasks() -> None:
     whole = {}
     for task in bundled("mechanism"):
         sheet = bare(task)
-        off = missed(sheet, distorted(sheet.segments, np.random.default_rng(seed)))
-        whole[task] = max(off.values()) <= NEAR
+        for seed in range(1, 5):  # errors of 0.1 mm let one drawing pass and another miss by a hair
+            off = missed(sheet, distorted(sheet.segments, np.random.default_rng(seed)))
+            whole[task, seed] = max(off.values()) <= NEAR
 
-    assert len(whole) == 23
-    assert sum(whole.values()) >= 21, [drawing for drawing, found in whole.items() if not found]
+    assert len(whole) == 4 * 23
+    assert sum(whole.values()) >= 4 * 21, [drawing for drawing, found in whole.items() if not found]
 
 
 def planted(sheet: Bare, wrong: Signature, seed: int = 4) -> tuple[frozenset[str], frozenset[str]]:

@@ -120,8 +120,9 @@ def test_a_signal_to_all_processes_at_once_leaves_nothing_for_longer_than_until_
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGTERM")
 def test_who_waits_when_a_server_ends_is_told_so() -> None:
-    with served(stderr=subprocess.PIPE) as (address, process), ThreadPoolExecutor(8) as many:
-        asked = [many.submit(get, address, f"task/scheme-20-press-automaton?v={n}") for n in range(1, 9)]
+    with served(stderr=subprocess.PIPE) as (address, process), ThreadPoolExecutor(20) as many:
+        paths = (f"task/{task}?v={n}" for task in (CLASS, "scheme-20-press-automaton") for n in range(10))
+        asked = [many.submit(get, address, path) for path in paths]  # more than two processes draw in a second
         time.sleep(1.0)
         process.terminate()
         _, told = process.communicate(timeout=30)
