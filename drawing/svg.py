@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-import sys
 from base64 import b64encode
 from cmath import rect
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from functools import cache, lru_cache
-from importlib import import_module
+from functools import lru_cache
 from math import cos, degrees, isfinite, pi, sin
-from types import ModuleType
 from typing import Any, BinaryIO, assert_never
 from xml.etree import ElementTree
 
@@ -39,9 +36,11 @@ def write(pages: Sequence[Page], stream: BinaryIO) -> None:
 
 def svg_text(page: Page, with_font: bool = True) -> str:
     """Return one page as the text of an SVG file; without its font it is for a reader that has it."""
+    from svgwrite import Drawing
+
     width, height = _number(page.width), _number(page.height)
     of_layers = {"xmlns:inkscape": INKSCAPE} if page.layers else {}
-    drawing = _svgwrite().Drawing(
+    drawing = Drawing(
         size=(f"{width}mm", f"{height}mm"),
         viewBox=f"0 0 {width} {height}",
         font_family=f"{DRAFTING}, {FAMILIES[SCREEN]}, sans-serif",
@@ -56,19 +55,6 @@ def svg_text(page: Page, with_font: bool = True) -> str:
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']  # drawings are compared as texts, by lines
     _put_down(drawing.get_xml(), lines)
     return _FORBIDDEN.sub("", "\n".join([*lines, ""]))
-
-
-@cache
-def _svgwrite() -> Any:
-    """Import svgwrite without what reads the web, half of its import, which it needs for faces from there alone."""
-    if (web := "urllib.request") in sys.modules:
-        return import_module("svgwrite")
-    sys.modules[web] = later = ModuleType(web)
-    later.urlopen = lambda *asked, **how: import_module(web).urlopen(*asked, **how)  # type: ignore[attr-defined]
-    try:
-        return import_module("svgwrite")
-    finally:
-        del sys.modules[web]
 
 
 def _put_down(element: ElementTree.Element, lines: list[str]) -> None:

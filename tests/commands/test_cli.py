@@ -348,17 +348,6 @@ def test_an_interrupt_is_quiet_and_a_fault_of_the_program_itself_is_not_hidden(
         cli.main(["solve", TASK])
 
 
-def test_a_sheet_loads_nothing_that_reads_the_web_unless_svgwrite_does(tmp_path: Path) -> None:
-    code = "import contextlib, sys, kulman.cli\nwith contextlib.suppress(SystemExit):\n"
-    code += "    kulman.cli.main(['sheet', 'nau-slider-crank', '-o', 'x.svg'])\n"
-    code += "print('urllib.request' in sys.modules)\nimport svgwrite.container\n"
-    code += "print(svgwrite.container.urlopen('data:,face').read().decode())"
-
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
-
-    assert done.stdout.split() == ["x.svg", "False", "face"]
-
-
 def test_no_garbage_is_looked_for_while_a_sheet_is_drawn_nor_afterwards(tmp_path: Path) -> None:
     code = "import atexit, gc, kulman.cli\ngc.collect()\ngc.callbacks.append(lambda when, _: print(when))\n"
     code += "atexit.register(gc.callbacks.clear)\nkulman.cli.main(['sheet', 'nau-slider-crank', '-o', 'x.svg'])"
