@@ -499,7 +499,7 @@ def _choosable(task: Task, name: str, text: object, solved: Solved) -> None:
     if role(name).kind == "mu" and name not in known:
         if name in solved.quantities:
             raise InputError("scale-follows", symbol=name, known=", ".join(known))
-        if solved.trouble is None and name in (s.symbol for s in kind.first_scales(solved, {}, task.plans)[1].values()):
+        if name in solved.scale_of_figure.values():
             raise InputError("scale-larger", symbol=name, known=", ".join(known))
         raise unknown("scale-unknown", name, known, task=task.id)
     segment = name if role(name).kind != "mu" else str(text) if "=" in str(text) else ""

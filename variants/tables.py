@@ -47,10 +47,7 @@ _CREATED = datetime(2000, 1, 1)
 _WIDEST, _PIXELS, _LINE = 45, 7, 15  # characters of a column, how wide each is, and points that a line is high
 _PORTRAIT, _LANDSCAPE, _SCREEN = 120, 220, 180  # characters that pages, printed small, and a screen are wide
 _A4, _MARGIN = 9, 0.4  # the number of that paper, inches
-_SMALLEST, _HANDY = (
-    65,
-    25,
-)  # per cent at which 11 points are 7; points of a row that a hand fills there
+_SMALLEST, _HANDY = 65, 25  # per cent at which 11 points are 7; points of a row that a hand fills there
 MANY = 5_000  # rows from which on writing them takes seconds
 # who is told how much more of a long table is written, and of how much
 watching: ContextVar[Callable[[int, int], None] | None] = ContextVar("watching", default=None)

@@ -437,8 +437,8 @@ def batch(
     groups = of_several_groups(student.entry.who for student in students)
     doubled = shared_by_mistake(works, len(once[0].variants)) if len(once) == 1 else ()
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
-    before = (InputError("batch-gone", n=len(gone), file=quote(gone[0], SHOWN)),) if gone else ()
-    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice, *before))
+    removed = (InputError("batch-gone", n=len(gone), file=quote(gone[0], SHOWN)),) if gone else ()
+    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice, *removed))
     for name, rows in _tables(done, once, lang):
         _put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     whole = dict[str, bytes]()
