@@ -10,7 +10,7 @@ import os
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, get_args
 
@@ -31,6 +31,7 @@ from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings, Wanted, positions_of
 from .reader import load_task
+from .shelf import bundled
 from .tables import picture
 from .task import AnyTask, Task
 
@@ -314,13 +315,27 @@ def sheet_id(task: Task, variant: str, settings: Settings | None = None) -> str:
 
 def same_id(written: str, right: str) -> bool:
     """Tell whether a student has copied an id, letters that are easily misread counting as one."""
-    plain, own = (latin(text.strip().upper()).translate(_MISREAD) for text in (written, right))
-    return plain == own
+    return _copied(written) == _copied(right)
+
+
+def _copied(text: str) -> str:
+    return latin(text.strip().upper()).translate(_MISREAD)
 
 
 def variant_of_id(task: Task, written: str) -> str | None:
     """Return the variant of a task, with its own data, to which an id belongs."""
     return next((name for name in task.variants if same_id(written, sheet_id(task, name))), None)
+
+
+def task_of_id(written: str) -> str | None:
+    """Return the bundled task to one of whose variants, with its own data, an id belongs."""
+    return _bundled_ids().get(_copied(written))
+
+
+@cache
+def _bundled_ids() -> dict[str, str]:
+    tasks = map(load_task, bundled())
+    return {_copied(sheet_id(task, variant)): task.id for task in tasks for variant in task.variants}
 
 
 @of_its_kinds(*BLOCK)

@@ -214,9 +214,48 @@ def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, run: R
     status, out, _ = run("check", TASK, answers(tmp_path, about=f"sheet id;{other}\n"), "-v", "3", "--lang", "en")
 
     assert status == 0
-    assert f"the sheet id '{other}' is that of variant 5, not of variant 3" in out
+    assert f"the sheet id '{other}' is that of variant 5, not of variant 3" in out.partition("To be noted")[0]
     assert "variant: 3" in out
     assert "the form says variant 'example'; it is marked as variant 3" in out
+
+
+FOUR_BAR = sheet_id(load_task("madi-four-bar"), "17")
+
+
+@pytest.mark.parametrize(
+    ("task", "number", "rows", "other"),
+    [
+        ("madi-four-bar", "", "", "madi-four-bar"),
+        ("MADI-four-bar", "", "", "madi-four-bar"),
+        ("", FOUR_BAR.lower(), "", "madi-four-bar"),
+        ("our-press", "", "V_C;;;1;;\nV_CB;;;1;;\nomega_3;;;1;;\n", "our-press"),  # a task file of somebody's own
+        ("NAU-slider-crank", "", "", ""),
+        ("Кривошипно-повзунний механізм", "", "V_C;;;1;;\n", ""),
+        ("madi-four-bar", sheet_id(load_task(TASK), "5"), "", ""),  # with the id of a sheet of this task
+        ("3", "", "", ""),
+        ("", "T3K-12H", "", ""),  # miscopied
+    ],
+)
+def test_answers_for_another_task_are_refused_and_a_head_that_was_edited_is_not(
+    tmp_path: Path, run: Run, task: str, number: str, rows: str, other: str
+) -> None:
+    """They were marked as if they were for this task, with a remark at the end."""
+    (folder := tmp_path / "answers").mkdir()
+    file = answers(folder, about=f"sheet id;{number}\nstudent;Коваль\n", name="koval.csv")
+    text = Path(file).read_text(encoding="utf-8").replace(f"task;{TASK}", f"task;{task}", 1)
+    Path(file).write_text(text + rows, encoding="utf-8")
+    answers(folder, about="student;Бондар\n", name="bondar.csv")
+
+    status, out, err = run("check", TASK, file, "--lang", "en")
+    _, of_class, _ = run("check", TASK, folder, "--lang", "en", "-o", tmp_path / "m.csv", "-o", tmp_path / "c.html")
+
+    assert (status, out == "", err.count("\n")) == ((2, True, 1) if other else (0, False, 0))
+    told = f"these answers are for the task '{other}', not for {TASK}"
+    line = next(line for line in of_class.splitlines() if line.startswith("Коваль"))
+    page = (tmp_path / "c.html").read_text(encoding="utf-8")
+    assert [told in where for where in (err, line, page.replace("&#x27;", "'"))] == [bool(other)] * 3
+    assert ("there is no quantity" in line) is False
+    assert f"marked: {1 if other else 2}," in of_class
 
 
 def test_a_sheet_id_belongs_to_task_variant_and_data_and_stands_on_the_sheet(tmp_path: Path) -> None:

@@ -349,7 +349,7 @@ def _each_marked(
     jobs: int | None,
 ) -> list[Result]:
     """Mark those of a class who are not among the `found`."""
-    names = job.names(answers) if journal else []
+    names, language = job.names(answers) if journal else [], job.terms.request.language
     if journal and job.folder:
         for number, name in enumerate(names):  # what an earlier run made of the same answers, if its reports are there
             before = journal.before.get(name)
@@ -361,7 +361,7 @@ def _each_marked(
         for done in shared_out(job.begin, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
             for number, student, result in ((*todo[place], made) for place, made in done):
                 if result is None:  # the student's answers have killed the process that marked them
-                    result = failed(student, InputError("process-died"), job.terms.request.language)
+                    result = failed(student, job.terms.entry_of(student), InputError("process-died"), language)
                 elif journal:
                     journal.note(names[number], result)
                 found[number] = result
@@ -384,7 +384,7 @@ def _mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     try:
         report, result = reported(desk, answers)
     except KulmanError as error:
-        return failed(answers, error, job.terms.request.language)
+        return failed(answers, job.terms.entry_of(answers), error, job.terms.request.language)
     if job.folder is None:
         return result
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"

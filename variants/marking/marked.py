@@ -18,7 +18,9 @@ from ...scales.kept import Kept
 from ...scales.numbers import quote
 from ..case import Request, Settings, plans_wanted
 from ..roster import Entry, Roster, variant_of_book
-from ..sheets import same_id, variant_of_id
+from ..sheets import same_id, task_of_id, variant_of_id
+from ..shelf import bundled
+from ..task import Task
 from .cells import Asked
 from .keyed import PLANS, Keyed, Rubric, is_arm_of_lever, keyed
 from .reading import Answers, Reply, apart
@@ -33,6 +35,7 @@ SHORT = 2.0  # mm; shorter segments are read too coarsely to tell
 FEWEST = 4  # answers that must be right under the key of another variant
 MANY, MOST = 0.5, 0.8  # parts of the answers: not right under one's own key; that agree, or are right under the other
 INSET = 5.0  # mm; longer segments are read on their plan
+STRANGE = 0.25  # part of the answers that a task does not ask for, which with another task's name are for that
 TOLD_APART = 2  # mistakes that are told together
 READ = 1.0  # mm that reading a photograph may miss of a segment
 KEPT, BLANKS = 32, 4  # answer keys; handouts that were photographed
@@ -171,24 +174,40 @@ class Marked:
         return sum(line.verdict is verdict for line in self.lines)
 
 
+def _other_task(task: Task, answers: Answers) -> str:
+    """Return the other task that answers are for: what their file says, or whose sheet id it has; else nothing.
+
+    A head that somebody has edited names no task that there is, and what is answered is asked here.
+    """
+    written, sheet = answers.about.get("task", ""), answers.about.get("sheet", "")
+    if written.casefold() == task.id.casefold() or (sheet and variant_of_id(task, sheet)):
+        return ""
+    strange = sum(problem.key.startswith("quantity-unknown") for problem in answers.problems)
+    known = next((name for name in bundled() if name.casefold() == written.casefold()), "")
+    known = known or (sheet and task_of_id(sheet)) or ""
+    return written if not known and strange > STRANGE * (strange + len(answers.lines)) else known
+
+
 def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
     """Return the variant that a student has, by roster, file or record book; and what contradicts it.
 
     Raises
     ------
     InputError
-        The record book has no such digits; the student's row of the roster is wrong.
+        The answers are for another task; the record book has no such digits; the student's row of the roster is wrong.
     """
+    task, about, notes = terms.request.task, answers.about, list[KulmanError]()
+    if other := _other_task(task, answers):
+        raise InputError("marked-other-task", text=quote(other), task=quote(task.id))
     if entry is not None and entry.problem is not None:
         raise entry.problem
-    task, about, notes = terms.request.task, answers.about, list[KulmanError]()
     if terms.roster is not None and entry is None:
         notes.append(
             InputError("marked-stranger", text=quote(answers.who.student) if answers.who.student else answers.source)
         )
-    other, said = about.get("task", ""), about.get("variant", "")
-    if other and other != task.id:
-        notes.append(InputError("marked-task", text=quote(other), task=quote(task.id)))
+    written, said = about.get("task", ""), about.get("variant", "")
+    if written and not written.isdigit() and written.casefold() != task.id.casefold():  # a number may be any task's
+        notes.append(InputError("marked-task", text=quote(written), task=quote(task.id)))
     book = answers.who.book or (entry.who.book if entry else "")
     with suppress(InputError):
         said = task.variant(said).id if said else ""

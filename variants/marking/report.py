@@ -98,7 +98,7 @@ class Report(Saved):
             "out_of": self.rubric.out_of,
             "first_wrong": marked.marking.first_wrong,
             "counts": {str(verdict): marked.count(verdict) for verdict in Verdict},
-            "notes": [*self.lists["notes"]],
+            "notes": [note.text(self.language) for note in marked.notes],
             "lines": [_line(rows[line.name], self.own) for line in marked.lines],
         }
         if not self.own:
@@ -180,7 +180,8 @@ class Report(Saved):
     @cached_property
     def lists(self) -> dict[str, tuple[str, ...]]:
         """What to look at again, mistakes that explain the answers, what a teacher should check, what was odd."""
-        notes = tuple(note.text(self.language) for note in self.marked.notes)
+        said = (note.text(self.language) for note in self.marked.notes)
+        notes = tuple(note for note in said if self.own or note not in self.checks)
         teachers = {} if self.own else {"candidates": tuple(self._candidates()), "flags": tuple(self.checks)}
         return {"again": tuple(self._again()), **teachers, "notes": notes}
 

@@ -37,6 +37,8 @@ CERTAIN = 0.6  # the chance that two honest readings are the same is no more tha
 WIDEST = 2.0  # mm of spread
 BEST = 0.242  # 1/sqrt(2 pi e): density of a normal law at its deviation, at the deviation where it is largest
 ROUNDING = 1e-6  # mm
+CONTRADICTS = ("marked-task", "marked-variant", "marked-sheet", "marked-sheet-variant")  # keys of notes
+LISTS = ("mistakes", "notes", "reports", "plans", "absent", "perhaps", "contradicts")  # of a result
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +177,8 @@ class Result:
     """One student: who, which variant, the mark (None where the answers could not be marked), verdicts, mistakes.
 
     `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing; `perhaps` are
-    mistakes that these answers do not tell from the others, `slips` that only the hand may have slipped.
+    mistakes that these answers do not tell from the others, `slips` that only the hand may have slipped; `contradicts`
+    what the answers say of task, variant or data that is not what they were marked for.
     """
 
     source: str
@@ -195,6 +198,7 @@ class Result:
     absent: tuple[str, ...] = ()
     perhaps: tuple[str, ...] = ()
     slips: bool = False
+    contradicts: tuple[str, ...] = ()
 
     @property
     def empty(self) -> bool:
@@ -208,8 +212,8 @@ class Result:
     def flags(self, language: str) -> list[str]:
         """Return what a teacher should check of this student alone."""
         said = texts(language)
-        found = [said["flag.exact"]] if self.exact else []
-        return [*found, said["flag.variant"].format(variant=self.fits)] if self.fits else found
+        exact = [said["flag.exact"]] if self.exact else []
+        return [*self.contradicts, *exact, *([said["flag.variant"].format(variant=self.fits)] if self.fits else [])]
 
     def explained(self, language: str, numbered: bool = True) -> list[str]:
         """Return what explains the answers: mistakes in words, after their numbers, or how many it may be."""
@@ -231,7 +235,7 @@ class Result:
             The data are none of a result.
         """
         segments = {name: _Measured(**of) for name, of in data["segments"].items()}
-        lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports", "plans", "absent", "perhaps")}
+        lists = {name: tuple(data[name]) for name in LISTS}
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
 
@@ -259,7 +263,7 @@ def result_of(marked: Marked, language: str) -> Result:
         {str(verdict): marked.count(verdict) for verdict in Verdict},
         "" if first is None else key.symbol(first),
         tuple(dict.fromkeys(broken.mistake for broken in best)),
-        tuple(note.text(language) for note in marked.notes),
+        tuple(note.text(language) for note in marked.notes if note.key not in CONTRADICTS),
         _too_exact(segments),
         segments,
         (),
@@ -268,6 +272,7 @@ def result_of(marked: Marked, language: str) -> Result:
         tuple(sorted(marked.absent)),
         tuple(sorted(ids - {broken.mistake for broken in best})),
         marked.slips,
+        tuple(note.text(language) for note in marked.notes if note.key in CONTRADICTS),
     )
 
 
@@ -276,12 +281,14 @@ def nothing(answers: Answers, entry: Entry | None, variant: str) -> Result:
     return Result(answers.source, entry.who if entry else answers.who, variant)
 
 
-def failed(answers: Answers, error: KulmanError, language: str) -> Result:
-    """Return what is kept of a student whose answers cannot be marked."""
+def failed(answers: Answers, entry: Entry | None, error: KulmanError, language: str) -> Result:
+    """Return what is kept of a student whose answers cannot be marked: why, and what else was odd in them."""
     reason = error.text(language)
     told = texts(language)["class.unread"].format(reason=reason) if answers.unread else reason
-    notes = (*(problem.text(language) for problem in answers.problems), told)
-    return Result(answers.source, answers.who, notes=notes)
+    # what another task asks is no problem of these answers
+    problems = () if error.key == "marked-other-task" else answers.problems
+    notes = (told, *(problem.text(language) for problem in problems))
+    return Result(answers.source, entry.who if entry else answers.who, notes=notes)
 
 
 Lines: TypeAlias = Sequence[Result | Entry]  # of a class: who has handed in, and who has not
