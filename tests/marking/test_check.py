@@ -287,6 +287,44 @@ def test_a_form_without_a_variant_has_that_of_its_sheet_id(
     assert ["nowhere said" in note.text("en") for note in marked.notes if "nowhere" in note.text("en")] == [True] * told
 
 
+@pytest.mark.parametrize(
+    ("row", "verdict"),
+    [
+        ("V_B;;;5,62 км;м/с;", "scale"),
+        ("V_B;;;5,62;km;", "scale"),
+        ("V_B;;;5,62 м/с²;м/с;", "scale"),
+        ("omega_2;;;15,7 м/с;;", "scale"),
+        ("h_2;110 км;;;;", "scale"),
+        ("V_B;;;6,62 км;;", "wrong"),
+        ("V_B;;;20,24 км/год;;", "right"),
+        ("V_B;;;5620 мм/с;;", "right"),
+        ("V_B;;;5,62 мс;;", "right"),  # a slip of the pen
+        ("V_B;;;5,62 сажень;;", "right"),
+    ],
+)
+def test_a_right_number_in_a_unit_of_another_quantity_has_a_wrong_unit(tmp_path: Path, row: str, verdict: str) -> None:
+    """It was right, with a remark that the unit does not fit."""
+    report = check(TASK, "3", lang="en").mark(read(tmp_path, f"{row}\n", "3"))
+
+    (line,) = report.marked.marking.answered
+    assert line.verdict == verdict
+    assert (report.marked.marking.first_wrong == line.name) is (verdict != "right")
+    if verdict == "scale":
+        assert report.lists["again"][0].endswith(": only they are wrong")
+        assert "does not fit" in report.lists["notes"][0]
+
+
+def test_a_wrong_unit_over_a_column_is_no_error_of_a_student(tmp_path: Path) -> None:
+    (file := tmp_path / "class.csv").write_text(
+        "student;V_B, м/с²;V_A, m/s\nА;5,62;5,86\nБ;5,62 км;5,86\n", encoding="utf-8"
+    )
+    asked = check(TASK, "3", lang="en")
+
+    verdicts = [[str(line.verdict) for line in asked.mark(one).marked.lines] for one in asked.read(str(file))]
+
+    assert verdicts == [["right", "right"], ["right", "scale"]]
+
+
 def test_a_record_book_gives_the_variant() -> None:
     for book, digits, variant in (("АТ-2023/417", 1, "7"), ("20230000", 1, "0"), ("123", 2, "3"), ("115", 2, "5")):
         assert variant_of_book(load_task(TASK), book, digits) == variant

@@ -92,20 +92,21 @@ def _misfits(answers: Answers, key: Keyed) -> Iterator[Misfit]:
 
 
 def _counted_once(
-    marking: Marking, found: Iterable[Misfit], counted: Collection[str]
+    marking: Marking, found: Iterable[Misfit], counted: Collection[str], foreign: Collection[str]
 ) -> tuple[Marking, dict[str, Misfit]]:
     """Return the marking with each misfit as an error of the first line that it concerns; and the misfits by lines.
 
-    One of the lines `counted`, of which the mark is made, must bear the error.
+    One of the lines `counted`, of which the mark is made, must bear the error. So has a line with a `foreign` unit.
     """
     bearers: dict[str, Misfit] = {}
     for misfit in found:
         names = [line.name for line in marking.lines if line.name in misfit.names]
         bearers[next((name for name in names if name in counted), names[0])] = misfit
-    if not bearers:
+    wrong = {*bearers, *foreign}
+    if not wrong:
         return marking, bearers
     lines = tuple(
-        replace(line, verdict=Verdict.SCALE, about="size") if line.name in bearers and line.verdict.passed else line
+        replace(line, verdict=Verdict.SCALE, about="size") if line.name in wrong and line.verdict.passed else line
         for line in marking.lines
     )
     return replace(marking, lines=lines, first_wrong=first_wrong(lines, marking.marker)), bearers
@@ -332,7 +333,8 @@ class Desk:
         def counted() -> tuple[Line, ...]:
             return tuple(line for line in marking.lines if line.name in names or (own and line.answer is not None))
 
-        marking, borne = _counted_once(marking, found, {line.name for line in counted()})
+        foreign = {line.name for line in answers.lines.values() if line.foreign}
+        marking, borne = _counted_once(marking, found, {line.name for line in counted()}, foreign)
         fits = on_drawing.fits if on_drawing else ""
         fits = fits or _fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)

@@ -18,8 +18,8 @@ from ...plans.marking.lines import Drawn
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
-from ...scales.numbers import SHOWN, quote
-from ...scales.units import unit
+from ...scales.numbers import SHOWN, quote, split_number
+from ...scales.units import UnitName, unit
 from ..crew import digest_of
 from ..drawings.files import SUFFIXES as DRAWINGS
 from ..drawings.files import read_drawing
@@ -35,6 +35,7 @@ from .cells import Asked, Mu
 NUMBERS = ("mm", "mu", "value")
 PARTS = (*NUMBERS, "direction")
 PRINTED = "printed"
+LONGEST = 2000.0  # mm; no sheet has longer segments
 SUFFIXES = (*TABLES, *DRAWINGS, *PICTURES)  # of files with answers
 Columns = Mapping[str, tuple[int | None, str]]  # by what they hold: which they are, and the unit over them
 Ends = tuple[complex, complex]  # of a vector: tail and tip
@@ -43,11 +44,15 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Reply(Answer):
-    """One answered quantity as it stands in a file: at which place, and the scale factor beside it."""
+    """One answered quantity as it stands in a file: at which place, and the scale factor beside it.
+
+    One is `foreign` where the student has written a unit that none of its quantity is: `5,62 km` for metres a second.
+    """
 
     place: str = ""
     decimals: int = 0  # with which the segment was written
     factor: Mu | None = None
+    foreign: bool = False
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -261,13 +266,32 @@ class _Sheet:
         if mu is not None:
             self.scales.setdefault(cell.name, mu)
 
-    def value(self, cell: _Cell, text: str) -> float | None:
-        """Read a value; one with a wrong unit is noted, and taken in the unit of the form."""
+    def value(self, cell: _Cell, text: str) -> tuple[float | None, bool]:
+        """Read a value; one with a wrong unit is noted, and taken in the unit of the form.
+
+        Whether the unit is that of another quantity is returned, too: a unit that is none, or has only lost its signs
+        (`мс` for m/s), is a slip of the pen.
+        """
         try:
-            return cells.value(text, cell.unit, cell.name, self.asked) if text else None
+            return cells.value(text, cell.unit, cell.name, self.asked) if text else None, False
         except InputError as error:
             self.refuse(cell, error)
-            return cells.bare(text, cell.name, self.asked) if error.key.startswith("unit-") else None
+            if not error.key.startswith("unit-"):
+                return None, False
+            names = (error.data.get("text", ""), self.asked.quantities[cell.name].unit)
+            letters = {re.sub(r"\W", "", name) for name in names}
+            return cells.bare(text, cell.name, self.asked), error.key == "unit-wrong" and len(letters) > 1
+
+    def segment(self, cell: _Cell, text: str) -> tuple[float | None, int, bool]:
+        """Read a segment, its decimals, and whether its unit is none of paper: one of kilometres is of millimetres."""
+        read = self.read(cell, lambda: cells.segment(text, cell.unit)) if text else None
+        if read is None:
+            return None, 0, False
+        written = split_number(text)[1]
+        if read[0] <= LONGEST or not written:
+            return *read, False
+        self.refuse(cell, InputError("unit-wrong", text=written, expected=UnitName("mm")))
+        return *cells.segment(text.removesuffix(written), ""), True
 
     def direction(self, cell: _Cell, answered: bool) -> tuple[float | None, int | None]:
         """Read an angle or a sense; an angle is none that a scalar could have, and a sense none of a vector.
@@ -290,17 +314,16 @@ class _Sheet:
         """
         found = (columns.get(part, (None, "")) for part in PARTS)
         of_mm, of_mu, of_value, of_direction = (_Cell(row, column, name, written) for column, written in found)
-        segment = self.number(of_mm)
-        drawn = self.read(of_mm, lambda: cells.segment(segment, of_mm.unit)) if segment else None
+        mm, decimals, of_no_paper = self.segment(of_mm, self.number(of_mm))
         answered = any(self.filled(row, cell.column) for cell in (of_mm, of_mu, of_value))
         angle, sense = self.direction(of_direction, answered)
         mu, text = self.mu(of_mu), self.number(of_value)
         text, written, angle, sense = self.turned(of_value, text, angle, sense)
-        value = self.value(of_value._replace(unit=written), text)
+        value, foreign = self.value(of_value._replace(unit=written), text)
+        foreign = foreign and (own is not None or bool(split_number(text)[1]))  # over a column it is no student's
         plus = value is not None and text.startswith("+")
         last = None if value is None else cells.rounded(text, value)
-        mm, decimals = drawn or (None, 0)
-        reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu)
+        reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu, foreign or of_no_paper)
         if not reply.empty and name in self.lines:
             again = InputError("answer-again", place=self.lines[name].place)
             self.refuse(_Cell(row, own, name), again)
