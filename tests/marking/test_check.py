@@ -287,6 +287,68 @@ def test_a_form_without_a_variant_has_that_of_its_sheet_id(
     assert ["nowhere said" in note.text("en") for note in marked.notes if "nowhere" in note.text("en")] == [True] * told
 
 
+@pytest.mark.parametrize("suffix", [".csv", ".xlsx"])
+@pytest.mark.parametrize(
+    ("task", "own", "name"),
+    [
+        (TASK, {"l_OA": "55,5 mm", "phi": "50 deg"}, "V_B"),
+        ("madi-gear", {"z_1": "17"}, "d_1"),
+        ("madi-cam", {"h": "31.5 mm"}, "mu_s"),
+    ],
+)
+def test_a_form_for_data_of_ones_own_is_marked_with_them(
+    tmp_path: Path, task: str, own: dict[str, str], name: str, suffix: str
+) -> None:
+    """It said nothing of them: without `--set` it was marked with the data of the variant."""
+    variant = next(iter(load_task(task).variants))
+    made = check(task, variant, set=own, lang="uk")
+    rows = [list(row) for row in read_grid(made.write_form(tmp_path / f"form{suffix}")).rows]
+    right = solve(task, variant, set=own)[name]
+    for row in rows:
+        if row[:1] == [name]:
+            row[5:7] = [f"{abs(right.value):.5g}", right.unit]
+    file = str(write(tmp_path, rows, suffix))
+
+    def marked(**how: Any) -> tuple[str, list[str]]:
+        asked = check(task, lang="en", **how)
+        report = asked.mark(asked.read(file)[0])
+        (line,) = report.marked.marking.answered
+        return line.verdict, [*report.lists["flags"]]
+
+    verdict, flags = marked()
+    assert (verdict, len(flags)) == ("right", 1)
+    assert "is for data of its own, and marked with them" in flags[0]
+    assert marked(set=own) == ("right", [])
+    other = {given: "51 deg" if given == "phi" else value for given, value in own.items()} | {"l_OA": "75 mm"}
+    if task == TASK:
+        verdict, flags = marked(set=other)
+        assert verdict == "wrong"
+        told = "the form is for the data 'phi = 50 deg; l_OA = 55,5 mm'; it is marked with others"
+        assert flags == [f"{told}, those of the roster or of --set"]
+
+
+def test_data_of_a_form_that_cannot_be_read_are_told_and_not_passed_over(tmp_path: Path, run: Run) -> None:
+    status, out, err = run("check", TASK, answers(tmp_path, about="own data;l_OA = багато\n"), "--lang", "en")
+
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert "a.csv, l_OA = багато: l_OA: 'багато' is not a number" in err
+
+
+def test_a_form_of_a_class_carries_the_data_that_students_have_alone(tmp_path: Path) -> None:
+    roster = write(tmp_path, [["student", "variant", "phi [deg]"], ["А", "3", "50"], ["Б", "3", ""]], name="roster")
+    form = check(TASK, roster=roster, lang="uk").write_form(tmp_path / "form.csv")
+    rows = [list(row) for row in read_grid(form).rows]
+    rows = [row + [""] * (len(rows[0]) - len(row)) for row in rows]
+    for row, data in zip(rows[1:], ({"phi": "50 deg"}, {}), strict=True):
+        row[rows[0].index("V_B, м/с")] = f"{abs(solve(TASK, '3', set=data)['V_B'].value):.4g}"
+    file, asked = str(write(tmp_path, rows)), check(TASK, lang="en")
+
+    found = [asked.mark(one).marked for one in asked.read(file)]
+
+    assert [line.verdict for one in found for line in one.marking.answered] == ["right", "right"]
+    assert [any(note.key == "marked-data" for note in one.notes) for one in found] == [True, False]
+
+
 @pytest.mark.parametrize(
     ("row", "verdict"),
     [

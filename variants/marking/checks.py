@@ -30,7 +30,7 @@ from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, save_form, table_bytes
 from ..task import LocatedError, Task
 from .class_page import PAGE, ClassPage
-from .keyed import PLANS, asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
+from .keyed import DATA, PLANS, asked_of, class_header, columns_of, data_text, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, answers_of, read_all, stem_of
 from .report import REPORTS, Report
@@ -57,6 +57,9 @@ class Check(Terms):
         """Return the rows of the empty form of one student, and which columns each answer has (scale factors: mu)."""
         key = Desk(self).keyed(fullest(self.request), {})
         about = {"task": self.request.task.id, "variant": str(self.request.variant or "")}
+        if self.request.settings:
+            about[DATA] = data_text(key.solution.case, self.request.settings)
+            about["sheet"] = key.sheet if self.request.variant else ""
         if self.request.only is not None:
             about[PLANS] = ", ".join(self.request.only)
         scales = dict.fromkeys((name for part in key.parts for name in part.scales), ("mu",))
@@ -75,10 +78,13 @@ class Check(Terms):
         task, language = self.request.task, self.request.language
         if self.roster is not None:
             key = Desk(self).keyed(fullest(self.request), {})
-            rows = [class_header(key, self.rubric.directions != "ignored", self.rubric.asked)]
+            own = [*({DATA} if any(entry.settings for entry in self.roster.entries) else ())]
+            who = ("student", "group", "book", "number", "variant", "sheet", *own)
+            rows = [class_header(key, who, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
-                who = entry.who
-                rows.append((who.student, who.group, who.book, who.number, self._variant_of(entry), ""))
+                data = "; ".join(f"{name} = {value}" for name, value in entry.settings.items())
+                told = (*(getattr(entry.who, name) for name in who[:4]), self._variant_of(entry), "")
+                rows.append((*told, *[data] * len(own)))
             bold, frozen = [0], 1
         else:
             rows, _ = self.form()

@@ -14,7 +14,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from ...drawing.words import GREEK, Words
+from ...drawing.words import GREEK, Given, Words
 from ...plans.hands.shaky import Tolerance, paper_of, preset
 from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.key import Key, Question, answer_key, hanging_on
@@ -22,11 +22,11 @@ from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import all_known, unknown
+from ...scales.names import all_known, latin, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.scale import Display
 from ...scales.units import USUAL
-from ..case import Request, Settings, kind_of
+from ..case import Case, Request, Settings, kind_of
 from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
 from ..sheets import sheet_id
 from ..solution import Solution, solution_of
@@ -46,6 +46,7 @@ RATES = ("omega", "epsilon")  # kinds of quantities of links
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
+DATA = "data"  # of one's own, for which a form is
 PLANS = "plans"  # which of them a form asks for, if not all
 COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
 
@@ -262,7 +263,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
     """Go through the rows of an empty form; `about` is what is known of the sheet already, `only` what is asked."""
     asked, words = keyed.asked, keyed.words
     said = texts(words.language)
-    for key in (*ASKED_ABOUT, *(PLANS,) * (PLANS in about)):
+    for key in (*ASKED_ABOUT, *(key for key in (DATA, PLANS) if key in about)):
         yield (said[f"about.{key}"], about.get(key, ""))
     vectors = any(question.vector for part in keyed.parts for question in part.asked)
     kind, plans = keyed.solution.kind, ("", *keyed.solution.solved.program.plans)
@@ -286,15 +287,15 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
 
-def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> tuple[str, ...]:
-    """Return the columns of a class: who it is, then scale factors, and segment, value of each quantity with its unit.
+def class_header(keyed: Keyed, who: Iterable[str], directions: bool, only: Collection[str] = ()) -> tuple[str, ...]:
+    """Return the columns of a class: `who` it is, then scale factors, segment and value of each quantity with its unit.
 
     With `directions` also the direction of a vector, the sense of what turns. Of quantities `only` some may be asked.
     """
     words, paper = keyed.words, keyed.asked.display.paper
     said = texts(words.language)
     segment = said["column.mm"].partition(" ")[0] + " "  # the word before its unit
-    columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
+    columns = [said[f"about.{key}"] for key in who]
     for part in keyed.parts:
         asked = [question for question in part.asked if not only or question.name in only]
         if any(map(_drawn, asked)):
@@ -309,6 +310,29 @@ def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> 
             }
             columns += [heads[part] for part in columns_of(question) if directions or part != "direction"]
     return tuple(columns)
+
+
+def data_text(case: Case, names: Collection[str]) -> str:
+    """Return the data of one's own in a case, those of `names`, as a form has them: `l_OA = 55 mm; phi = 30 deg`."""
+
+    def shown(given: Given) -> str:
+        if isinstance(given.value, str):
+            return given.value
+        number = f"{given.value:.12g}"
+        number = number if case.language == "en" else number.replace(".", ",")
+        return number if given.unit in ("", "1") else f"{number} {given.unit}"
+
+    return "; ".join(f"{name} = {shown(given)}" for name, given in case.givens.items() if name in names)
+
+
+def data_said(text: str) -> dict[str, str]:
+    """Return the data of one's own that a form has, as `--set` takes them.
+
+    >>> data_said("l_OA = 55 mm; phi=30")
+    {'l_OA': '55 mm', 'phi': '30'}
+    """
+    pairs = (part.partition("=") for part in text.split(";") if part.strip())
+    return {latin(name.strip()): value.strip() for name, _, value in pairs}
 
 
 def is_arm_of_lever(name: str) -> bool:

@@ -15,14 +15,14 @@ from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, firs
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import Kept
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from ..case import Request, Settings, plans_wanted
 from ..roster import Entry, Roster, variant_of_book
-from ..sheets import same_id, task_of_id, variant_of_id
+from ..sheets import same_id, sheet_id, task_of_id, variant_of_id
 from ..shelf import bundled
-from ..task import Task
+from ..task import LocatedError, Task
 from .cells import Asked
-from .keyed import PLANS, Keyed, Rubric, is_arm_of_lever, keyed
+from .keyed import DATA, PLANS, Keyed, Rubric, data_said, is_arm_of_lever, keyed
 from .reading import Answers, Reply, apart
 from .seen import Seen, measured, seen
 
@@ -274,8 +274,11 @@ class Desk:
         entry = self.terms.entry_of(answers)
         variant, notes = variant_of(self.terms, answers, entry)
         only, told = _plans_of(self.terms, answers)
-        key, notes = self.keyed(variant, entry.settings if entry else {}, only=only), notes + told
-        return entry, key, notes + _other_sheet(self.terms, answers.about.get("sheet", ""), key)
+        settings, of_data = _data_of(self.terms, answers, entry, variant)
+        key, notes = self.keyed(variant, settings, only=only), notes + told + of_data
+        if all(note.key != "marked-data-other" for note in of_data):  # which the sheet id only says once more
+            notes += _other_sheet(self.terms, answers.about.get("sheet", ""), key)
+        return entry, key, notes
 
     def mark(self, answers: Answers) -> Marked:
         """Mark the answers of one student.
@@ -289,7 +292,7 @@ class Desk:
             raise answers.unread
         terms, rubric = self.terms, self.terms.rubric
         entry, key, notes = self.of(answers)
-        variant, settings = key.solution.variant, entry.settings if entry else {}
+        variant, settings = key.solution.variant, key.solution.case.settings
         others = [other for other in terms.request.task.variants if other != variant][: KEPT - 1]
         on_drawing, sheets, absent = None, None, frozenset[str]()
         if answers.photos:
@@ -389,6 +392,26 @@ def _plans_of(terms: Terms, answers: Answers) -> tuple[tuple[str, ...] | None, l
         return None, []
     said = {"plans": ", ".join(plans), "marked": ", ".join(marked or ())}
     return None if marked else plans, [InputError("marked-plans-other" if marked else "marked-plans", **said)]
+
+
+def _data_of(terms: Terms, answers: Answers, entry: Entry | None, variant: str) -> tuple[Settings, list[KulmanError]]:
+    """Return the data that a student has besides those named for marking, and what is told of them.
+
+    Those of the roster, else those named for marking, else those that the form says it is for.
+    """
+    written, own = answers.about.get(DATA, ""), entry.settings if entry else {}
+    if not written:
+        return own, []
+    task, marked = terms.request.task, {**(terms.request.settings or {}), **own}
+    try:
+        said = data_said(written)
+        same = sheet_id(task, variant, said) == sheet_id(task, variant, marked)
+    except KulmanError as error:
+        raise LocatedError(f"{answers.source}, {quote(written)}", error) from error
+    if same:
+        return own, []
+    note = InputError("marked-data-other" if marked else "marked-data", text=quote(written, SHOWN))
+    return (own if marked else said), [note]
 
 
 def _other_sheet(terms: Terms, written: str, key: Keyed) -> list[KulmanError]:

@@ -37,7 +37,7 @@ CERTAIN = 0.6  # the chance that two honest readings are the same is no more tha
 WIDEST = 2.0  # mm of spread
 BEST = 0.242  # 1/sqrt(2 pi e): density of a normal law at its deviation, at the deviation where it is largest
 ROUNDING = 1e-6  # mm
-CONTRADICTS = ("marked-task", "marked-variant", "marked-sheet", "marked-sheet-variant")  # keys of notes
+CONTRADICTS = {f"marked-{of}" for of in ("task", "variant", "data", "data-other", "sheet", "sheet-variant")}  # notes
 LISTS = ("mistakes", "notes", "reports", "plans", "absent", "perhaps", "contradicts")  # of a result
 
 
@@ -178,7 +178,7 @@ class Result:
 
     `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing; `perhaps` are
     mistakes that these answers do not tell from the others, `slips` that only the hand may have slipped; `contradicts`
-    what the answers say of task, variant or data that is not what they were marked for.
+    what the answers say of task, variant or data that is not what the teacher has said of them.
     """
 
     source: str
