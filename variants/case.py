@@ -458,22 +458,30 @@ def beside(task: Task, folder: str) -> Any:
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    for name, said in _by_symbol(scales, kind_of(task.kind).scale_symbols(solved), solved).items():
+    symbols = kind_of(task.kind).scale_symbols(solved)
+    known = tuple(symbol for symbol in symbols if symbol in solved.scale_of_plan.values())  # of what is drawn
+    for name, said in _by_symbol(scales, symbols, solved).items():
         text = as_text(said)
         of_kind(name, text, (str, Real), "str | float | tuple[float, str]")
-        _choosable(task, name, text, solved)
+        if role(name).kind == "mu" and name not in symbols:
+            if name in solved.quantities:
+                raise InputError("scale-follows", symbol=name, known=", ".join(known))
+            if name in solved.scale_of_figure.values():
+                raise InputError("scale-larger", symbol=name, known=", ".join(known))
+            raise unknown("scale-unknown", name, known, task=task.id)
+        segment = name if role(name).kind != "mu" else str(text) if "=" in str(text) else ""
+        if segment and not kind_of(task.kind).segments:
+            raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
         try:
             symbol = name if role(name).kind == "mu" else segment_symbol(name)
             chosen = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
             shown = {*solved.values, *solved.quantities}
-            drawn = symbol in solved.scale_of_plan.values()
-            if drawn and isinstance(chosen, Segment) and chosen.quantity not in shown:
+            if symbol in known and isinstance(chosen, Segment) and chosen.quantity not in shown:
                 raise InputError("scale-segment", text=quote(name))
         except InputError as error:
             raise LocatedError(name, error) from error
-        if not drawn:
-            known = ", ".join(dict.fromkeys(solved.scale_of_plan.values())) or "-"
-            raise InputError("scale-not-drawn", text=quote(name), known=known)
+        if symbol not in known:
+            raise InputError("scale-not-drawn", text=quote(name), known=", ".join(known) or "-")
         choosers[symbol] = chosen
     return choosers
 
@@ -490,21 +498,6 @@ def _by_symbol(scales: Settings, known: Sequence[str], solved: Solved) -> Settin
                 del found[name]
                 found |= {symbol: scales.get(symbol, text) for symbol in same}
     return found
-
-
-def _choosable(task: Task, name: str, text: object, solved: Solved) -> None:
-    """Refuse a scale factor that a task has not or that is found, and a segment where none chooses a scale factor."""
-    kind = kind_of(task.kind)
-    known = kind.scale_symbols(solved)
-    if role(name).kind == "mu" and name not in known:
-        if name in solved.quantities:
-            raise InputError("scale-follows", symbol=name, known=", ".join(known))
-        if name in solved.scale_of_figure.values():
-            raise InputError("scale-larger", symbol=name, known=", ".join(known))
-        raise unknown("scale-unknown", name, known, task=task.id)
-    segment = name if role(name).kind != "mu" else str(text) if "=" in str(text) else ""
-    if segment and not kind.segments:
-        raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
 
 
 def positions_of(value: int, most: int | None = None) -> int:

@@ -13,7 +13,7 @@ from ...scales.kept import Kept
 from ..board import POSITION, Program
 from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
-from ..names import Name, inertia, rate, role, scale_factor, spelled, vector
+from ..names import LEVER, Name, inertia, rate, role, scale_factor, spelled, vector
 from ..quantities import extent, plans_of, point_of, quantities
 from ..solved import Solved, found_on
 from . import compound
@@ -107,7 +107,7 @@ class SolvedLinkage(Solved):
 
 def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     """Return the symbol of the scale factor of every plan; a group and its links share one."""
-    kinds = {POSITION: "l", "velocity": "V", "acceleration": "a", "lever": "V"}
+    kinds = {POSITION: "l", "velocity": "V", "acceleration": "a", LEVER: "h"}
     symbols: dict[str, str] = {Name(plan, plan): scale_factor(kind) for plan, kind in kinds.items()}
     for part, links in structure.parts.items():
         symbols |= {spelled("forces", name): scale_factor("F", part, links) for name in (part, *map(str, links))}

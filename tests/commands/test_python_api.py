@@ -76,6 +76,21 @@ def test_a_scale_factor_as_the_sheet_has_it_is_that_of_all_plans_of_forces() -> 
     assert {name: scale.mu for name, scale in of.items() if name.startswith("mu_F")} == {"mu_F_23": 50, "mu_F_1": 20}
 
 
+@pytest.mark.parametrize("task", kulman.tasks())
+def test_the_scale_factors_that_are_told_are_those_that_may_be_chosen(task: str) -> None:
+    usual = {symbol: scale.mu for symbol, scale in kulman.solve(task).scales.items()}
+    with pytest.raises(KulmanError) as caught:
+        kulman.solve(task, scales={"mu_none": 1})
+    told = str(caught.value).partition(": ")[2].split(", ")
+
+    for symbol in told:
+        chosen = kulman.solve(task, scales={symbol: 1.25 * usual[symbol]}).scales[symbol].mu
+        assert chosen == pytest.approx(1.25 * usual[symbol])
+    for symbol in {*usual} - {*told}:
+        with pytest.raises(KulmanError, match="follows from"):
+            kulman.solve(task, scales={symbol: usual[symbol]})
+
+
 @pytest.fixture(scope="module")
 def solution() -> Solution:
     return kulman.solve(TASK, "3")
