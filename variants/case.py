@@ -6,6 +6,7 @@ without knowing which it is.
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
@@ -17,7 +18,7 @@ from ..drawing.words import Given, Words
 from ..plans.names import role, scale_factor
 from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
-from ..scales.errors import InputError
+from ..scales.errors import InputError, Written
 from ..scales.givens import Bound, Described, Givens
 from ..scales.names import all_known, by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
@@ -50,6 +51,7 @@ Plans = tuple[str, ...]
 Scales = Mapping[str, Scale]  # by plan
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
 Answer = TypeVar("Answer", bound=Solved)
+LINE = 2000  # letters of a command that a message names
 WIDTH = 170.0  # mm of lines of text of a card
 PARTS = (1.0, 0.8, 0.5, 0.4, 0.2)  # of its usual size that the picture of a card has
 
@@ -100,6 +102,17 @@ class Case(Request):
         """The title of the task; where fewer plans are asked for, without what is studied, which a colon parts off."""
         whole: str = self.task.title[self.language]
         return whole if {*self.task.plans} <= {*self.plans} else whole.partition(":")[0]
+
+    def command(self, verb: str, *options: str) -> Written:
+        """Return the line that asks for the same from the command line, with all that changes numbers."""
+        own = [
+            *(("--set", item) for item in self.settings.items()),
+            *(("--scale", item) for item in (self.scales or {}).items()),
+        ]
+        said = [part for option, (name, value) in own for part in (option, f"{name}={as_text(value)}")]
+        only = [] if self.only is None else ["--only", ",".join(self.plans)]
+        words = "kulman", verb, self.task.file or self.task.id, "-v", self.variant, *said, *only, *options
+        return quote(shlex.join(words), LINE)
 
     @property
     def values(self) -> dict[str, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import stat
 import time
 import tomllib
@@ -68,7 +69,7 @@ class TaskFileError(InputError):
         line = self.faults[0].text(language)
         if len(self.faults) == 1:
             return line
-        more = messages(language)["and-more"].format(n=len(self.faults) - 1, file=self.file)
+        more = messages(language)["and-more"].format(n=len(self.faults) - 1, file=shlex.quote(self.file))
         return f"{line} {more}"
 
 
@@ -345,7 +346,11 @@ def _try(checker: Checker, kind: Kind[Any, Any], task: Task) -> None:
     for row, variant in enumerate(task.variants):
         path = ("variant", row)
         if time.process_time() - checker.begun > TRIED_FOR:
-            counts = {"n": len(task.variants) - row, "all": len(task.variants), "file": checker.file}
+            counts = {
+                "n": len(task.variants) - row,
+                "all": len(task.variants),
+                "file": Written(shlex.quote(checker.file)),
+            }
             checker.remark(path, InputError("check-untried", **counts), variant)
             return
         if row in wrong:

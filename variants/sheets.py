@@ -291,7 +291,8 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
             said = {"before": f"{before.mu:g}", "now": f"{now.mu:g}", "unit": now.per_mm_unit}
             changed[scale.symbol] = InputError("scale-changed", symbol=scale.symbol, **said)
     if changed:
-        said = {"format": drawn.sheet.letters, "usual": paper.name}
+        shows = case.command("solve", "--format", drawn.sheet.letters)
+        said = {"format": drawn.sheet.letters, "usual": paper.name, "command": shows}
         warnings.append(InputError("scales-changed", changes=tuple(changed.values()), **said))
     with lettered(case.lettering, case.language):
         pages = drawn.pages(stamp)

@@ -223,8 +223,11 @@ def test_json_is_in_si_and_says_what_bears() -> None:
 
 def test_a_sweep_of_a_hoist_has_no_drawing_no_points_and_no_ends(tmp_path: Path, run: Run) -> None:
     with pytest.raises(InputError) as refused:
-        sweep(TASK, "V01").save(tmp_path / "forces.svg")
-    assert refused.value.key == "sweep-drawing"
+        sweep(TASK, "V01", set={"l_0": "6 m"}).save(tmp_path / "forces.svg")
+    assert all(
+        "kulman sheet karpenko-hoist -v V01 --set 'l_0=6 m' -o forces.svg" in refused.value.text(lang)
+        for lang in LANGUAGES
+    )
     assert not (tmp_path / "forces.svg").exists()
     for option in (["--points", "A"], ["--from", "1"], ["--to", "2"], ["--chords", "A"]):
         status, _, err = run("sweep", TASK, *option)

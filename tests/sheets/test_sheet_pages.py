@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shlex
 from base64 import b64decode
 from collections import Counter
 from collections.abc import Iterator
@@ -10,6 +12,7 @@ from functools import lru_cache
 from io import BytesIO
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fontTools.ttLib import TTFont
@@ -26,6 +29,7 @@ from kulman.plans.quantities import plans_of
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, some, vectors
 from kulman.tests.support.chains import chain
+from kulman.tests.support.commands import Run
 from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.readback import read, read_back, svgs
 from kulman.tests.support.task_files import task_of, with_changes
@@ -95,11 +99,27 @@ def test_a_sheet_with_other_scale_factors_names_them_and_solve_shows_its_numbers
     for language in LANGUAGES:
         line = warning.text(language)
         assert "\n" not in line
-        assert f"kulman solve --format {format}" in line
+        assert f"`kulman solve nau-slider-crank -v 7 --format {format}`" in line
         assert set(re.findall(r"mu_\w+", line)) == changed
         for symbol in changed:
             change = f"{symbol} {mus(usual)[symbol]:g} -> {mus(small)[symbol]:g}"
             assert decimal(change, language) in line
+
+
+@pytest.mark.parametrize("drawn", [kulman.sheet, kulman.handout])
+def test_the_command_that_a_sheet_names_shows_its_numbers(drawn: Any, run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "my own.toml"
+    file.write_text(bundled_text("nau-slider-crank"), encoding="utf-8")
+    own = {"set": {"l_OA": 45, "phi": (50.0, "deg")}, "scales": {"pa": "60 mm"}, "only": ["velocity", "forces"]}
+    sheet = drawn(file, "7", format="A4", **own)
+
+    [warning] = [warning for warning in sheet.warnings if warning.key == "scales-changed"]
+    for language in LANGUAGES:
+        command = re.findall("`(.+?)`", warning.text(language))[-1]
+        status, shown, _ = run(*shlex.split(command)[1:], "--json")
+        assert status == 0
+        scales = json.loads(shown)["scales"]
+        assert {name: scales[name]["value"] for name in scales} == pytest.approx(mus(sheet))
 
 
 def test_few_plans_take_a_small_format_and_much_text_a_large_one() -> None:

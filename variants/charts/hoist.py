@@ -239,7 +239,7 @@ def _swinging(scene: Scene) -> tuple[SolvedHoist, dict[str, float]]:
     if math.isinf(givens["I_0"]):
         raise InputError("chart-hoist-rigid")
     if solved.forces.motion is not None:
-        raise InputError("chart-hoist-one-sided")
+        raise InputError("chart-hoist-one-sided", command=scene.case.command("solve"))
     return solved, givens
 
 

@@ -94,7 +94,8 @@ class CourseSweep(Swept):
             return [(path, outlined(outlines))]
         if path.suffix.lower() not in FILES:
             known = ", ".join((*FILES, *((CUT,) if self.course.outlines() else ())))
-            raise InputError("sweep-drawing", task=quote(self.task.id), known=Written(known), file=quote(path.name))
+            sheet = self.case.command("sheet", "-o", path.name)
+            raise InputError("sweep-drawing", task=quote(self.task.id), known=Written(known), command=sheet)
         return Result._files(self, path, drawn)
 
     def __repr__(self) -> str:
