@@ -166,6 +166,7 @@ class Judged:
             if step.name in need or like or not need.isdisjoint(self._shifted(step, key.paper.program)):
                 need.add(step.name)
                 need.update(step.operands, question.step.operands if question else ())
+                need.add(f"_{step.name}")  # what is calculated, though a broken rule may not lay it off
                 kept.append(step)
                 if question is not None and question.plan != POSITION:
                     plans.add(question.plan)

@@ -296,7 +296,10 @@ class Allowance:
 
     def _through(self, step: Step) -> float:
         operands = [self.drawn.values[operand] for operand in step.operands]
-        return sum(inherited(step.law, operands, LAWS[step.law](*operands), map(self._slack, step.operands)))
+        try:
+            return sum(inherited(step.law, operands, LAWS[step.law](*operands), map(self._slack, step.operands)))
+        except (ZeroDivisionError, OverflowError):  # what a student says is zero
+            return 0.0
 
     def _slack(self, name: str) -> float:
         """Return by how much an operand may differ from that with which the student has gone on."""

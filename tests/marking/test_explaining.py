@@ -16,7 +16,7 @@ from kulman.plans.hands.shaky import Paper
 from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
-from kulman.plans.mistakes.book import Book, Signature, broken, signatures
+from kulman.plans.mistakes.book import Book, Signature, book, broken, signatures
 from kulman.plans.mistakes.explaining import Candidate, _Explanation, explain
 from kulman.plans.mistakes.rules import BY_SCALE
 from kulman.tests.support.cases import some
@@ -316,6 +316,17 @@ def test_planted_mistakes_are_found(tasks: list[str], count: int, directions: bo
     assert shares["among"] >= 0.95 * len(found), missed
     assert shares["first"] >= 0.8 * len(found), missed
     assert sum(one.carried for one in found) >= 0.95 * sum(one.downstream for one in found)
+
+
+def test_a_normal_part_that_two_mistakes_together_calculate_and_do_not_lay_off_is_explained() -> None:
+    """What it was calculated from was not on the board: of an acceleration beyond all measure came a KeyError."""
+    said = {"V_A": 56.0, "V_BA": 28.5, "V_B": 53.7, "V_S2": 53.5, "omega_2": 150.0, "a_A": 1e30, "a_BA_n": 4680.0}
+    of, values = key("nau-slider-crank", "3"), said | {"a_BA_t": 749.0, "a_B": 339.0, "a_S2": 632.0}
+
+    _, marking = explain(book(of), mark(of, [answer(name, value) for name, value in values.items()]))
+
+    assert {line.name for line in marking.answered} == values.keys()
+    assert marking["a_A"].verdict is Verdict.WRONG
 
 
 def test_every_mistake_can_be_made_after_a_force_is_left_out() -> None:

@@ -423,6 +423,17 @@ def test_impossible_answers_stop_nothing(bad: float) -> None:
     assert np.mean([line.verdict is Verdict.RIGHT for line in marking.lines]) > 0.9
 
 
+def test_a_zero_by_which_a_law_divides_stops_nothing() -> None:
+    """The whole class was left without marks: of a conveyor whose driver was said to stand came a division by zero."""
+    of = key("scheme-12-shaking-conveyor")
+    right = right_answers(of, directions=False)
+
+    assert (
+        mark(of, [replace(a, value=0.0) if a.name == "omega_1" else a for a in right])["omega_1"].verdict
+        is Verdict.WRONG
+    )
+
+
 def test_marking_takes_answers_in_any_order_the_first_of_two_and_no_unknown_ones() -> None:
     answers = [replace(a, value=1.2 * (a.value or 0.0)) for a in right_answers(EXAMPLE)]
     forth, back = mark(EXAMPLE, answers), mark(EXAMPLE, answers[::-1])
