@@ -472,7 +472,8 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
     symbols = kind_of(task.kind).scale_symbols(solved)
-    known = tuple(symbol for symbol in symbols if symbol in solved.scale_of_plan.values())  # of what is drawn
+    drawn = {*solved.scale_of_plan.values(), *solved.scale_of_figure.values()}
+    known = tuple(symbol for symbol in symbols if symbol in drawn)
     for name, said in _by_symbol(scales, symbols, solved).items():
         text = as_text(said)
         of_kind(name, text, (str, Real), "str | float | tuple[float, str]")

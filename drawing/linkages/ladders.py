@@ -114,7 +114,8 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
             raise InputError("scale-of-zero", quantity=name)
         return size
 
-    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys(solved.scale_of_plan.values())}
+    own = [ARMS] if LEVER in solved.scale_of_plan else []
+    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys([*solved.scale_of_plan.values(), *own])}
     ladders: dict[str, Ladder] = {}
     measured = any(step.verb == "measure" and is_shown(step.name) for step in solved.program)
     for symbol, size in longest.items():
@@ -315,6 +316,8 @@ def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]
     """Return the scale factors of the plans from their values by symbol."""
     plans = solved.scale_of_plan.items()
     scales = {plan: Scale(symbol, mus[symbol], UNITS[role(symbol).of]) for plan, symbol in plans}
+    if LEVER in scales:
+        scales[LEVER] = Scale(ARMS, mus[ARMS], UNITS[role(ARMS).of])
     if POSITION not in scales:  # of a structure alone nothing is drawn to scale
         return scales
     scale, crank = scales[POSITION], _crank(solved)

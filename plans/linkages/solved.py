@@ -96,9 +96,10 @@ class SolvedLinkage(Solved):
 
     @property
     def scale_of_figure(self) -> Mapping[str, str]:
-        """The symbol of the scale factor of the driver apart, where one that turns is drawn: `mu_l_1`."""
-        driver, plan = self.mechanism.driver, self.scale_of_plan.get(POSITION)
-        return {DRIVER: f"{plan}_{driver.link}"} if plan and isinstance(driver, Driver) else {}
+        """The symbols of the scale factors of Zhukovsky's lever and of a driver that turns, where they are drawn."""
+        driver, plans = self.mechanism.driver, self.scale_of_plan
+        apart = {DRIVER: f"{plans[POSITION]}_{driver.link}"} if POSITION in plans and isinstance(driver, Driver) else {}
+        return apart | ({LEVER: scale_factor("h")} if LEVER in plans else {})
 
     @property
     def _numbers(self) -> dict[str, float]:
@@ -107,7 +108,7 @@ class SolvedLinkage(Solved):
 
 def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     """Return the symbol of the scale factor of every plan; a group and its links share one."""
-    kinds = {POSITION: "l", "velocity": "V", "acceleration": "a", LEVER: "h"}
+    kinds = {POSITION: "l", "velocity": "V", "acceleration": "a", "lever": "V"}
     symbols: dict[str, str] = {Name(plan, plan): scale_factor(kind) for plan, kind in kinds.items()}
     for part, links in structure.parts.items():
         symbols |= {spelled("forces", name): scale_factor("F", part, links) for name in (part, *map(str, links))}
