@@ -514,6 +514,14 @@ def entry_of(folder: Path, head: str, row: str) -> Entry:
         ("ПІБ;Номер залікової;Вар.", "Лі А;12;3", Who("Лі А", book="12")),
         ("Student,Reg. No.,Variant", "Ann Lee,12,3", Who("Ann Lee", book="12")),
         ("Student,Record book no.,Variant", "Ann Lee,12,3", Who("Ann Lee", book="12")),
+        (
+            "Last Name,First Name,Username,Student ID,Availability,Variant",
+            "Lee,Ann,al,12,Yes,3",
+            Who("Lee Ann", book="12"),
+        ),
+        ("Student,Student ID number,ID number,Variant", "Ann Lee,12,7,3", Who("Ann Lee", book="12", number="7")),
+        ("Identifier,Full name,Email address,Variant", "Participant 7,Ann Lee,a@b.c,3", Who("Ann Lee", email="a@b.c")),
+        ("ФИО;Индивидуальный номер;Номер студента;Вар.", "Ли А;7;12;3", Who("Ли А", book="12", number="7")),
         ("ФИО;Студенческий билет №;E-Mail address;Вар.", "Ли А;12;a@b.c;3", Who("Ли А", book="12", email="a@b.c")),
     ],
 )
@@ -532,12 +540,12 @@ def test_data_of_ones_own_stand_under_symbols_too(tmp_path: Path, head: str, cel
 
 
 def test_columns_that_say_nothing_are_named(tmp_path: Path, run: Run) -> None:
-    file = roster(tmp_path, "1;А;77;45;30;x", head="№;student;variant;phi;Кут;note")
+    file = roster(tmp_path, "1;А;77;45;30;x;9", head="№;student;variant;phi;Кут;note;ID")
 
     status, _, err = run("batch", TASK, "--roster", str(file), "--out", str(tmp_path / "out"), "--jobs", "1")
 
     assert status == 2
-    assert err.splitlines()[0] == "class.csv: columns that are not read: Кут, note"
+    assert err.splitlines()[0] == "class.csv: columns that are not read: Кут, note, ID"
 
 
 @pytest.mark.parametrize(
