@@ -1,4 +1,4 @@
-"""The table of writers, and how their files come into being: whole or not at all; files of users, read in bounds."""
+"""The table of writers, and how their files come into being: whole or not at all."""
 
 from __future__ import annotations
 
@@ -37,24 +37,6 @@ PART = ".part"  # ends the names of files that are not whole yet
 PAUSES = (0.05, 0.1, 0.2, 0.4) if os.name == "nt" else ()  # seconds between attempts
 _LEFT = re.compile(r"\.(.+)\.\d+\.part")
 LONGEST = 120  # bytes of a name within that of a file: systems take 255 for the whole
-
-
-def handed_in(file: str | os.PathLike[str], largest: int, other: str) -> tuple[bytes, str, str]:
-    """Return what a file holds, one byte more than the `largest` at the most, its name as it is shown, its suffix.
-
-    Raises InputError: there is no such file, it cannot be read, or it is a folder or a device: the key `other` says so.
-    """
-    path = Path(file)
-    shown = quote(path, SHOWN)
-    try:
-        if path.is_file() or not path.exists():
-            with path.open("rb") as stream:
-                return stream.read(largest + 1), shown, path.suffix.lower()
-    except FileNotFoundError:
-        raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError):
-        raise InputError("file-unreadable", file=shown) from None
-    raise InputError(other, file=shown)
 
 
 def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:

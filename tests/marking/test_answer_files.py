@@ -20,12 +20,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kulman import check, solve
-from kulman.drawing.writers import handed_in
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read, table
 from kulman.tests.support.cases import some
 from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
+from kulman.variants.drawings.apart import handed_in
 from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.reading import _read_answers
 from kulman.variants.serving.safety import read_passwords

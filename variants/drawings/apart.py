@@ -1,4 +1,4 @@
-"""Files that somebody hands in, read in a process of its own, whose time and memory are bounded.
+"""Files that somebody hands in: read as far as a bound, and in a process of its own, whose time and memory are bounded.
 
 Forms of a PDF may hold forms, streams and pictures unpack into more than memory holds: it is that process that dies.
 """
@@ -6,20 +6,41 @@ Forms of a PDF may hold forms, streams and pictures unpack into more than memory
 from __future__ import annotations
 
 import atexit
+import os
 from collections import deque
 from collections.abc import Callable, Iterable
 from functools import cache
+from pathlib import Path
 from threading import Thread
 from time import process_time
 from typing import Any
 
 from ...scales.errors import InputError
+from ...scales.numbers import SHOWN, quote
 from .marks import FaultError
 
 MEMORY = 800_000_000  # bytes of that process
 PATIENCE, BEAT = 60.0, 0.02  # s, for a process to begin or to end; between looks at its time
 _ALL = object()  # comes after the last part
 LONGEST = 3600.0  # s, until a process is given up that does nothing, however busy the machine is
+
+
+def handed_in(file: str | os.PathLike[str], largest: int, other: str) -> tuple[bytes, str, str]:
+    """Return what a file holds, one byte more than the `largest` at the most, its name as it is shown, its suffix.
+
+    Raises InputError: there is no such file, it cannot be read, or it is a folder or a device: the key `other` says so.
+    """
+    path = Path(file)
+    shown = quote(path, SHOWN)
+    try:
+        if path.is_file() or not path.exists():
+            with path.open("rb") as stream:
+                return stream.read(largest + 1), shown, path.suffix.lower()
+    except FileNotFoundError:
+        raise InputError("file-missing", file=shown) from None
+    except (OSError, ValueError):
+        raise InputError("file-unreadable", file=shown) from None
+    raise InputError(other, file=shown)
 
 
 def apart(

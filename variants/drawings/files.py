@@ -13,9 +13,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
-from ...drawing.writers import handed_in
 from ...plans.marking.lines import Drawn
 from ...scales.errors import InputError
+from .apart import handed_in
 from .dxf import read_dxf
 from .marks import LARGEST, MOST, FaultError, Marks
 from .pdf import read_pdf

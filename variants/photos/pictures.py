@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ...drawing.markers import EACH, FEWEST, FREE
-from ...drawing.writers import handed_in
 from ...scales.errors import InputError
-from ..drawings.apart import apart
+from ..drawings.apart import apart, handed_in
 from ..drawings.marks import FaultError
 from ..sheets import CODED
 

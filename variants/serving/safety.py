@@ -20,9 +20,9 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from ...drawing.writers import handed_in
 from ...scales.errors import InputError
 from ...scales.numbers import quote
+from ..drawings.apart import handed_in
 
 LARGEST_BODY = 50_000_000  # bytes: the forms of a class
 READ_ON = 4 * LARGEST_BODY  # bytes of a body that are let go by before it is refused

@@ -24,9 +24,9 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from ...drawing.writers import handed_in
 from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote
+from ..drawings.apart import handed_in
 from . import grid
 
 MOST_PARTS = 2_000
