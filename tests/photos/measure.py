@@ -2,9 +2,9 @@
 
 Students draw all plans of a task, some with one mistake of the book; their sheets are photographed at three qualities
 and marked. Printed are, by quality and by task: pages found; vectors of 5 mm and more that were read; how far their
-ends are from where they were drawn; vectors read confidently and wrongly; lines of honest students that are right;
-mistakes that are named first, of all and of those that exact readings name; time of the processor for reading and
-marking a page.
+ends are from where their strokes end on paper; vectors read confidently and wrongly; lines of honest students that are
+right; mistakes that are named first, of all and of those that exact readings name; time of the processor for reading
+and marking a page.
 """
 
 from __future__ import annotations

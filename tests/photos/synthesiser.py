@@ -177,10 +177,10 @@ def drawn(
             spot = int(np.abs(way.places).argmin())
             if abs(way.places[spot]) < 1e-12:
                 places[spot] = pole + complex(*random.normal(0, 0.06, 2))
-            own_lines(paper, way, places, dark * (FAINT if plan in faint else 1.0), wide)
+            ends = own_lines(paper, way, places, dark * (FAINT if plan in faint else 1.0), wide)
             for name, tail, tip in zip(way.names, way.tails.tolist(), way.tips.tolist(), strict=True):
                 if sheet.keyed.key.questions.get(name) is None or sheet.keyed.key.questions[name].plan == plan:
-                    truth[name] = Truth(plan, number, complex(places[tail]), complex(places[tip]))
+                    truth[name] = Truth(plan, number, ends[tail, tip], ends[tip, tail])
     for group in sheet.whole[number]:  # the mechanism to scale, as far as it is lines
         if group.name == POSITION:
             for line in links_of(group.shapes):
@@ -194,11 +194,14 @@ def links_of(shapes: tuple[Shape, ...]) -> Iterator[Line]:
             yield from (part for part in shape.shapes if isinstance(part, Line) and abs(part.a - part.b) > 8)
 
 
-def own_lines(paper: Paper, way: Way, places: np.ndarray, dark: float, wide: float) -> None:
-    random = paper.random
+def own_lines(paper: Paper, way: Way, places: np.ndarray, dark: float, wide: float) -> dict[tuple[int, int], complex]:
+    """Draw the lines of a plan; return where each begins on the paper, by its points from either side."""
+    random, begins = paper.random, dict[tuple[int, int], complex]()
     letters = iter("abcdenstwk" * 9)
     for at in way.lines.tolist():
-        a, b = complex(places[way.tails[at]]), complex(places[way.tips[at]])
+        ends = int(way.tails[at]), int(way.tips[at])
+        a, b = (complex(places[end]) for end in ends)
+        begins |= {ends: a, ends[::-1]: b}
         size = abs(b - a)
         if size < 0.5:
             continue
@@ -207,6 +210,7 @@ def own_lines(paper: Paper, way: Way, places: np.ndarray, dark: float, wide: flo
             more = random.uniform(5, 25), random.uniform(5, 25)
             paper.stroke(a - unit * more[0] * (random.random() < 0.4), b + unit * more[1], dark * 0.45, 0.2)
         miss = [complex(*random.normal(0, 0.07, 2)) for _ in range(2)]
+        begins |= {ends: a + miss[0], ends[::-1]: b + miss[1]}
         paper.stroke(a + miss[0], b + miss[1], dark * random.uniform(0.85, 1.1), wide)
         if size > 5:
             for turn in (0.26, -0.26):
@@ -219,6 +223,7 @@ def own_lines(paper: Paper, way: Way, places: np.ndarray, dark: float, wide: flo
         middle = places.mean()
         a, b = (middle + 40 * complex(*random.uniform(-1, 1, 2)) for _ in range(2))
         paper.stroke(a, b, random.uniform(0.05, 0.11), 0.6)
+    return begins
 
 
 def photographed(ink: np.ndarray, random: Random, quality: str) -> bytes:

@@ -38,6 +38,7 @@ from kulman.tests.photos.synthesiser import (
     PHONE,
     PX,
     SCANNER,
+    Paper,
     Truth,
     drawn,
     photographed,
@@ -132,6 +133,23 @@ def test_what_was_drawn_is_read(honest: tuple[Report, dict[str, Truth]]) -> None
         assert max(abs(ends[0] - one.tail), abs(ends[1] - one.tip)) < 1.0, name
     assert {line.verdict for line in marked.lines} == {Verdict.RIGHT}
     assert marked.mark == 100.0
+
+
+def test_a_vector_truly_is_where_its_stroke_was_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    strokes, stroke = set[tuple[complex, complex]](), Paper.stroke
+
+    def watched(paper: Paper, a: complex, b: complex, *how: float) -> None:
+        strokes.update(((a, b), (b, a)))
+        stroke(paper, a, b, *how)
+
+    monkeypatch.setattr(Paper, "stroke", watched)
+    sheet = sheet_for(TASK, only=PLANS)
+    ways = chosen_ways(sheet, RIGHT)
+
+    _, truth = drawn(sheet, sheet.poles["velocity"][0], np.random.default_rng(5), ways)
+
+    assert {*truth} == {*ways["velocity"].names}
+    assert strokes.issuperset((one.tail, one.tip) for one in truth.values())
 
 
 def test_the_code_of_a_page_is_the_same_where_numbers_differ_in_their_last_digits() -> None:
