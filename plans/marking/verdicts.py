@@ -269,7 +269,7 @@ class Marker:
             median_low(found), median_high(found), key=lambda mu: abs(math.log(max(min(mu / ours, LARGE), 1.0 / LARGE)))
         )
 
-    def _true(self, plan: str) -> float | None:
+    def shown_scale(self, plan: str) -> float | None:
         """Return to which scale the segments of a plan seem to be drawn."""
         names, questions = self.segments.get(plan, ()), self.key.questions
         long = [name for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN]
@@ -469,7 +469,7 @@ class Marker:
         """Whether only the convention of the scale factor, or the scale itself, makes a line wrong."""
         question, mm = self.key.questions[name], self.answers[name].mm
         # an arm hangs on the direction of a force, and shows no scale when that is wrong
-        true = self._true(question.plan) if mm and question.step.verb != "arm" else None
+        true = self.shown_scale(question.plan) if mm and question.step.verb != "arm" else None
         own = (mm * true,) if true is not None and mm else ()
         return self._fits(name, value, (*self.answers[name].measured(self.mus[name]), *own))
 

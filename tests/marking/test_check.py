@@ -26,7 +26,7 @@ from kulman.tests.support.marking_cases import key, right_answers
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants import sheets
 from kulman.variants.case import Case
-from kulman.variants.marking.figures import Box, boxes, plan_figures
+from kulman.variants.marking.figures import MARGIN, Box, boxes, plan_figures
 from kulman.variants.marking.keyed import read_rubric
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import report_html
@@ -615,7 +615,7 @@ def test_letters_lie_on_no_others_and_beside_their_vector() -> None:
 def test_figures_are_well_formed_and_scripts_go_back_to_their_line(tmp_path: Path) -> None:
     asked = check("madi-four-bar", lang="en")
     marked = asked.mark(asked.read("printed")[0]).marked
-    figures = [ElementTree.fromstring(svg) for _, svg in plan_figures(marked, "en")]
+    figures = [ElementTree.fromstring(svg) for _, svg, _ in plan_figures(marked, "en")]
 
     texts = [text for figure in figures for text in figure.iter("text")]
     right = [text for text in texts if "".join(text.itertext()).endswith("✓")]
@@ -629,11 +629,38 @@ def test_figures_are_well_formed_and_scripts_go_back_to_their_line(tmp_path: Pat
         assert text not in right or math.isclose(levels[-1], 0.0, abs_tol=1e-9)
     asked = check(TASK, "3", lang="en")
     zero = asked.mark(read(tmp_path, "V_A;;;5,9;;30\nV_B;;;0;;0\n", "3")).marked  # a vector that is a point
-    for figure in (*figures, *(ElementTree.fromstring(svg) for _, svg in plan_figures(zero, "en"))):
+    for figure in (*figures, *(ElementTree.fromstring(svg) for _, svg, _ in plan_figures(zero, "en"))):
         assert all(re.fullmatch(r"M[-\d. MLhvz]+", path.attrib["d"]) for path in figure.iter("path"))
         width, height = map(float, figure.attrib["viewBox"].split()[2:])
         numbers = [float(n) for path in figure.iter("path") for n in re.findall(r"-?\d+\.\d+", path.attrib["d"])]
         assert 0.0 <= min(numbers) < max(numbers) <= max(width, height)
+
+
+@pytest.mark.parametrize(
+    ("rows", "cut"),
+    [
+        ("V_A;;;5,86;;\nV_BA;;;29,8;;\nV_B;;;5,62;;\n", "V_BA"),
+        ("V_A;58,6;0,1;5,86;;\nV_BA;29,8;;29,8;;\nV_B;56,2;;5,62;;\n", ""),  # it has been drawn as it should be
+        ("V_A;;;58,6;;\nV_BA;;;29,8;;\nV_B;;;56,2;;\nV_S2;;;56;;\n", "V_A, V_BA, V_B, V_S2"),
+        ("V_A;;;5,86;;\nV_BA;;;4,5;;\nV_B;;;8;;\n", ""),
+    ],
+)
+def test_a_value_many_times_too_large_leaves_the_right_plan_readable(tmp_path: Path, rows: str, cut: str) -> None:
+    """It was drawn whole, and the right plan as small as a letter."""
+    report = check(TASK, "3", lang="en").mark(read(tmp_path, rows, "3"))
+
+    ((_, svg, told),) = plan_figures(report.marked, "en")
+
+    figure = ElementTree.fromstring(svg)
+    width, height = map(float, figure.attrib["viewBox"].split()[2:])
+    right = [path.attrib["d"] for path in figure.iter("path") if path.attrib["class"] == "right"]
+    places = np.array([re.findall(r"-?\d+\.\d+", path) for path in right], float).reshape(-1, 2)
+    assert np.ptp(places, axis=0).max() > 0.45 * (max(width, height) - 2 * MARGIN)
+    assert told == (f"Cut off at the edge, or beyond it: {cut}." if cut else "")
+    every = [float(n) for p in figure.iter("path") for n in re.findall(r"-?\d+\.\d+", p.attrib["d"])]
+    assert 0.0 <= min(every) < max(every) <= max(width, height)
+    page = report_html(report)
+    assert ("Cut off at the edge" in page) is bool(cut)
 
 
 @pytest.mark.parametrize(

@@ -130,6 +130,7 @@ class ClassPage:
         if wrong is None:
             return ""
         caption = f"{escape(wrong[0])}. {escape(self.said['class.figure'].format(student=name.removesuffix('.')))}"
+        caption += f" {scripts(wrong[2])}" * bool(wrong[2])
         return f"<figure>{wrong[1]}<figcaption>{caption}</figcaption></figure>"
 
     def _pairs(self) -> str:

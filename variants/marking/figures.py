@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ...drawing.areas import clipped
 from ...drawing.linkages.reading import read
+from ...drawing.text import Box as Frame
 from ...plans.board import POSITION
 from ...plans.marking.answers import Line, Verdict
 from ...plans.names import role
@@ -69,6 +71,7 @@ def _spots(tail: complex, tip: complex, half: float, centre: complex) -> Iterato
 
 SIZE = 150.0  # mm, of the longer side of a plan
 MARGIN = 10.0
+REACH = 0.6  # of the right plan's size, by which the vectors of a student may stand out of it
 LEAST = 1e-9  # part of a plan's size below which a vector is a point
 RISE = {0: 0.0, 1: -1.2, -1: 0.9}  # mm down the page, of text, superscripts and subscripts
 SMALL = 2.5  # mm, size of scripts
@@ -84,6 +87,18 @@ class _Vector:
     line: Line | None
 
     @property
+    def ends(self) -> tuple[complex, complex]:
+        """Tail and tip."""
+        return self.tail, self.tip
+
+    def cut(self, frame: Frame) -> tuple[complex, complex] | None:
+        """Return the ends of what a frame shows of it, its own where it is whole."""
+        left, low, right, high = frame
+        if all(left <= end.real <= right and low <= end.imag <= high for end in self.ends):
+            return self.ends
+        return clipped(*self.ends, frame)
+
+    @property
     def kind(self) -> str:
         """What it is, as the style of the page names it."""
         return "right" if self.line is None else "own" if self.line.verdict.passed else "wrong"
@@ -95,23 +110,43 @@ class _Vector:
         return self.symbol + ("" if right else " ✓" if self.kind == "own" else " ✗")
 
 
-def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
-    """Go through heading and SVG of every plan on which something was answered."""
+def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str, str]]:
+    """Go through heading and SVG of every plan on which something was answered, and what is told of vectors cut off."""
     lines = {line.name: line for line in marked.lines if line.answer is not None and isinstance(line.said, complex)}
-    solution, words = marked.keyed.solution, marked.keyed.words
+    solution, words, said = marked.keyed.solution, marked.keyed.words, texts(language)
     for plan in solution.solved.program.plans:
         vectors = list(_vectors(marked, plan, lines))
         if plan != POSITION and any(vector.line is not None for vector in vectors):
-            heading = solution.kind.plan_heading(solution.solved, plan, words)
-            yield plain(heading), _svg(vectors, texts(language)["report.figure"])
+            heading, frame = solution.kind.plan_heading(solution.solved, plan, words), _frame(vectors)
+            outside = ", ".join(vector.symbol for vector in vectors if vector.cut(frame) != vector.ends)
+            told = said["report.cut"].format(symbols=outside) if outside else ""
+            yield plain(heading), _svg(vectors, frame, said["report.figure"]), told
+
+
+def _frame(vectors: Sequence[_Vector]) -> Frame:
+    """Return what a figure shows of the plane: the right plan, and of the student's what lies near to it."""
+    left, low, right, high = _around(end for vector in vectors if vector.line is None for end in vector.ends)
+    reach = REACH * max(right - left, high - low)
+    near = left - reach, low - reach, right + reach, high + reach
+    return _around(end for vector in vectors for end in ((vector.cut(near) or ()) if reach else vector.ends))
+
+
+def _around(places: Iterable[complex]) -> Frame:
+    """Return left, low, right and high of places."""
+    pairs = [(place.real, place.imag) for place in places]
+    (left, right), (low, high) = ((min(each), max(each)) for each in zip(*pairs, strict=True))
+    return left, low, right, high
 
 
 def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[_Vector]:
     """Go through the right vectors of a plan, then the student's, each from where the one before it ends."""
     solved = marked.keyed.solution.solved
     edges = read(solved.program).on(plan)
-    for edge in edges:
-        yield _Vector("", solved.point(edge.tail), solved.point(edge.tip), None)
+    right_plan = [_Vector("", solved.point(edge.tail), solved.point(edge.tip), None) for edge in edges]
+    yield from right_plan
+    left, low, far, high = _around(end for vector in right_plan for end in vector.ends) if edges else (0.0,) * 4
+    room = (1.0 + REACH) * max(far - left, high - low)
+    mu = marked.marking.marker.shown_scale(plan) or marked.marking.key.paper.mus.get(plan, 0.0)
     marks: dict[str, complex] = {}
     for edge in edges:
         line = lines.get(role(edge.name).shown)
@@ -123,16 +158,17 @@ def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[_
         told = line.answer is not None and line.answer.direction is not None
         if not told and line.verdict is not Verdict.CARRIED and right:  # it has the direction of the right one
             said = right * (math.hypot(said.real, said.imag) / math.hypot(right.real, right.imag))
+        size, mm = math.hypot(said.real, said.imag), line.answer.mm if line.answer else None
+        if mm and mm * mu <= room < size:  # the value has none beside the right plan; what was drawn has
+            said *= mm * mu / size
         tip = tail + said
         marks.setdefault(edge.tip, tip)
         yield _Vector(marked.keyed.symbol(line.name), tail, tip, line)
 
 
-def _svg(vectors: list[_Vector], caption: str) -> str:
-    """Return the vectors as SVG, the right ones below."""
-    places = [place for vector in vectors for place in (vector.tail, vector.tip)]
-    left, right = min(p.real for p in places), max(p.real for p in places)
-    bottom, top = min(p.imag for p in places), max(p.imag for p in places)
+def _svg(vectors: list[_Vector], frame: Frame, caption: str) -> str:
+    """Return the vectors as SVG, the right ones below; what lies out of the frame is cut off, which a break shows."""
+    left, bottom, right, top = frame
     span = max(right - left, top - bottom) or 1.0
     scale = SIZE / span
     width, height = (right - left) * scale + 2 * MARGIN, (top - bottom) * scale + 2 * MARGIN
@@ -146,9 +182,11 @@ def _svg(vectors: list[_Vector], caption: str) -> str:
 
     figure = SVG(viewBox=f"0 0 {width:.2f} {height:.2f}", role="img", debug=False)
     figure.set_desc(title=caption)
-    drawn = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors]
+    drawn = [(vector, at(ends[0]), at(ends[1])) for vector in vectors if (ends := vector.cut(frame)) is not None]
     for vector, tail, tip in drawn:
         line = f"M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"
+        if vector.cut(frame) != vector.ends and tip != tail:
+            line += _break(tail, tip)
         figure.add(Path(line, class_=vector.kind, factory=figure))
         figure.add(Path(_arrow(tail, tip, span * scale * LEAST), class_=f"{vector.kind} tip", factory=figure))
     own = [(vector, tail, tip) for vector, tail, tip in drawn if vector.line is not None]
@@ -163,6 +201,15 @@ def _svg(vectors: list[_Vector], caption: str) -> str:
             text.add(TSpan(run, dy=[f"{RISE[script] - level:.1f}"], font_size=size, factory=figure))
             level = RISE[script]
     return str(figure.tostring())
+
+
+def _break(tail: complex, tip: complex) -> str:
+    """Return the two strokes across a vector that goes on beyond the frame."""
+    along = (tip - tail) * (1.0 / abs(tip - tail))
+    across = along * complex(0.5, 1.2)
+    middles = (tip - along * back for back in (5.0, 6.5))
+    ends = ((middle - across, middle + across) for middle in middles)
+    return "".join(f"M{a.real:.2f} {a.imag:.2f}L{b.real:.2f} {b.imag:.2f}" for a, b in ends)
 
 
 def _arrow(tail: complex, tip: complex, least: float) -> str:

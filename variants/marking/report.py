@@ -405,7 +405,8 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
     figures = [] if report.own else list(plan_figures(report.marked, report.language))
     if figures:
         yield f"<p>{escape(said['report.figure'])}</p>"
-    yield from (f"<section><h2>{escape(heading)}</h2>{figure}</section>" for heading, figure in figures)
+    for heading, figure, told in figures:
+        yield f"<section><h2>{escape(heading)}</h2>{figure}{f'<p>{scripts(told)}</p>' * bool(told)}</section>"
 
 
 @lru_cache(maxsize=4096)  # the symbols of a class are the same
