@@ -268,6 +268,29 @@ def test_who_goes_on_honestly_from_the_same_mistake_has_not_copied() -> None:
     assert sum(abs(one[name].mm - other[name].mm) < 1e-6 for name in one) > 6
 
 
+@pytest.mark.parametrize("everybody", [False, True])
+def test_wrong_readings_that_two_share_are_told_unless_others_have_them(
+    tmp_path: Path, run: Run, everybody: bool
+) -> None:
+    """Of two plans there were too few segments: not even all seven of one, three far off, told of a copy of it."""
+    of, dice, lines = key(TASK, "3"), random.Random(4), list[list[object]]()
+    mus, far = {"V": 0.1, "a": 10.0}, {"V_BA": 11.0, "a_B": 27.0, "a_S2": -27.5}
+    names = ("V_BA", "V_B", "V_S2", "a_BA_t", "a_BA", "a_B", "a_S2")
+    for number in range(20):
+        wrong = far if everybody or number in (4, 13) else {}
+        right = {name: abs(of[name]) / mus[name[0]] + wrong.get(name, 0.0) for name in names}
+        lines.append([f"Student {number:02d}", *(round(2 * dice.gauss(mm, 0.6)) / 2 for mm in right.values())])
+    if not everybody:
+        lines[13][1:] = lines[4][1:]
+        lines[14][6:] = lines[5][6:] = [dice.choice((20.0, 55.0)), 40.0]  # may be chance, among 190 pairs
+    file = write(tmp_path, [["student", *(f"{name}, mm" for name in names)], *lines], name="class")
+
+    _, out, _ = run("check", TASK, file, "-v", "3", "--lang", "en")
+
+    told = [line[:10] for line in out.splitlines() if "the same millimetres" in line]
+    assert told == ([] if everybody else ["Student 04", "Student 13"])
+
+
 @pytest.mark.parametrize("step", [0.5, *(pytest.param(step, marks=pytest.mark.soak) for step in (0.1, 1.0))])
 def test_honest_hands_seldom_share_their_segments(step: float) -> None:
     """Fifty classes of thirty, 12 segments each, in which chance alone makes hardly a pair: one at most."""

@@ -10,10 +10,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from ...plans.marking.answers import Verdict
 from ...plans.marking.key import Key
+from ...plans.marking.verdicts import CLEAR
 from ...scales.errors import KulmanError, spoken
 from ..roster import WHO, Entry, Who
 from ..tables import Cell
@@ -28,6 +30,8 @@ UNLIKELY = 1e-3  # that an honest hand is so exact
 SHARED = 0.03  # ratio of likelihoods of all pairs of a class together at which one of them is told of
 UNLIKELY_PAIR = 5e-3  # that of a pair in a small class
 FEWEST = 3  # segments that two students must share
+FEWEST_WRONG = 2  # wrong ones, where the others need not agree
+KNOWN, ALIKE = 0.5, 0.1  # how often two honest students make the same mistake: a known one, any other one
 READ_TO = 0.1  # mm to which a segment is read at best of which only the value is said
 CHANGED = 0.5  # mm by which somebody who copies changes some of them
 SAME, AGREE = 0.65, 0.9  # parts of the segments that must be the same, and at the most changed so
@@ -46,7 +50,8 @@ class _Measured:
     """A segment of one student, mm on his own scale: as written, as it should be, what it is read to, its spread.
 
     It should be what follows from the student's earlier errors: who goes on honestly from the same mistake is no copy.
-    What is not `said` is that of a value alone.
+    What is not `said` is that of a value alone. Of what is clearly wrong by itself, `alike` is how often two honest
+    students have made the same mistake there, as far as the rest of a class does not tell.
     """
 
     mm: float
@@ -54,14 +59,20 @@ class _Measured:
     step: float
     spread: float
     said: bool = True
+    alike: float = 1.0
 
 
 def measured(
-    answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapping[str, float]
+    answers: Answers,
+    key: Key,
+    mus: Mapping[str, float],
+    follows: Mapping[str, float],
+    wrong: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, _Measured]:
     """Return the segments that can only have been measured, at the student's scale factors by plan, SI per mm.
 
-    `follows` has what follows for each quantity from the student's earlier errors, SI, if that is not the right size.
+    `follows` has what follows for each quantity from the student's earlier errors, SI, if that is not the right size;
+    `wrong` says of those that are so by themselves how often two students make the same mistake.
     """
     made = {one.name: one for one in key.paper.program}
     found: dict[str, tuple[Reply, float]] = {}
@@ -83,8 +94,9 @@ def measured(
     for name, (line, mu) in found.items():
         right, spread = follows.get(name, abs(key[name])) / mu, max(HAND, key.allowed[name] / mu / 3.0)
         mm, last = (values[name][0], max(0.5 if coarse else READ_TO, 2.0 * values[name][1]))
-        said = line.mm is not None
-        segments[name] = _Measured(line.mm or mm, right, step if said else last, spread, said)
+        said, clear = line.mm is not None, CLEAR * key.allowed[name] / mu
+        alike = wrong.get(name, 1.0) if abs((line.mm or mm) - right) > clear else 1.0
+        segments[name] = _Measured(line.mm or mm, right, step if said else last, spread, said, alike)
     return segments
 
 
@@ -114,18 +126,19 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
     """Go through the pairs of students whose measured segments agree as those of somebody who has copied.
 
     Who copies leaves most millimetres as they are and changes some of them a little; two honest drawings miss by
-    different amounts. Pairs that agree so far are held against both hypotheses, segment by segment.
+    different amounts. Pairs that agree so far are held against both hypotheses, segment by segment; and those who share
+    two segments or more that are wrong by themselves, by these alone.
     """
     import numpy as np
 
     names = sorted({name for student in students for name in student})
     if not names or len(students) < 2:
         return
-    mm, right = np.full((2, len(students), len(names)), np.nan)
+    mm, right, alike = np.full((3, len(students), len(names)), np.nan)
     for i, student in enumerate(students):
         for j, name in enumerate(names):
             if name in student:
-                mm[i, j], right[i, j] = student[name].mm, student[name].right
+                mm[i, j], right[i, j], alike[i, j] = student[name].mm, student[name].right, student[name].alike
     reach = np.array([max([CHANGED, *(s.step for s in student.values())]) for student in students]) + ROUNDING
     # pairs of other variants have no millimetres alike
     like = sum(int(((abs(right[i + 1 :] - own) <= CHANGED).sum(axis=1) >= FEWEST).sum()) for i, own in enumerate(right))
@@ -135,26 +148,39 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
         both, same = np.isfinite(apart).sum(axis=1), (apart < ROUNDING).sum(axis=1)
         near = (apart <= np.maximum(reach[i + 1 :], reach[i])[:, None]).sum(axis=1)
         most, all_near = (same >= SAME * both) & (near >= AGREE * both), (same >= SAME_OF_ALL * both) & (near == both)
-        for k in np.flatnonzero((same >= FEWEST) & (most | all_near)):
-            other = int(i + 1 + k)
-            if _likelihood(students[i], students[other]) < least:
-                alike = tuple(name for j, name in enumerate(names) if apart[k, j] < ROUNDING)
-                yield _Pair(i, other, alike, int(near[k]), int(both[k]))
+        wrong = np.maximum(alike[i + 1 :], alike[i]) < 1.0
+        agree = (same >= FEWEST) & (most | all_near)
+        for k in np.flatnonzero(agree | ((wrong & (apart < ROUNDING)).sum(axis=1) >= FEWEST_WRONG)):
+            other, said = int(i + 1 + k), np.flatnonzero(apart[k] < ROUNDING)
+            rest = abs(right - right[i]) <= CHANGED  # of others under the same key
+            rest[[i, other]] = False
+            same_way = (rest & (abs(mm - mm[i]) <= WIDEST)).sum(axis=0)
+            common = (same_way + np.maximum(alike[i], alike[other])) / (rest.sum(axis=0) + 1.0)
+            common = np.where(wrong[k], np.maximum(common, ALIKE), 1.0)
+            both_have = [(j, name) for j, name in enumerate(names) if math.isfinite(apart[k, j])]
+            chances = {name: _chance(students[i][name], students[other][name], common[j]) for j, name in both_have}
+            by_wrong = sum(math.log(chances[names[j]]) for j in said if wrong[k, j])
+            if by_wrong < least or (agree[k] and _likelihood(students[i], students[other], chances) < least):
+                yield _Pair(i, other, tuple(names[j] for j in said), int(near[k]), int(both[k]))
 
 
-def _likelihood(one: Mapping[str, _Measured], other: Mapping[str, _Measured]) -> float:
-    """Return the logarithm of how much likelier two drawings agree as they do if both are honest than if one is copied.
+def _chance(one: _Measured, other: _Measured, common: float) -> float:
+    """Return the chance that two honest hands read the same step, where the mistake behind it is so `common`.
 
-    That an honest hand reads the same step as another has the chance of step / (2 sqrt(pi) spread); of a segment that
-    is nearly right much more: however good the hand, 0.242 step / deviation at the most, certain within half a step.
+    It is step / (2 sqrt(pi) spread), of a segment that is nearly right much more: however good the hand, 0.242 step /
+    deviation at the most, certain within half a step.
     """
+    step, spread = max(one.step, other.step), min(max(one.spread, other.spread), WIDEST)
+    return common * min(max(step / (2.0 * math.sqrt(math.pi) * spread), _most(one), _most(other)), CERTAIN)
+
+
+def _likelihood(one: Mapping[str, _Measured], other: Mapping[str, _Measured], chances: Mapping[str, float]) -> float:
+    """Return the logarithm of how much likelier two drawings agree as they do if both are honest than if one copies."""
     total = 0.0
-    for name in one.keys() & other.keys():
+    for name, same in chances.items():
         pair = one[name], other[name]
         step = max(s.step for s in pair)
         steps = max(round(CHANGED / step), 1)  # to either side
-        spread = min(max(s.spread for s in pair), WIDEST)
-        same = min(max(step / (2.0 * math.sqrt(math.pi) * spread), *map(_most, pair)), CERTAIN)
         near = min(2 * steps * same, 1.0 - FAR - same)
         apart = abs(pair[0].mm - pair[1].mm)
         if apart < ROUNDING:
@@ -251,7 +277,10 @@ def result_of(marked: Marked, language: str) -> Result:
         if question is not None and mu is not None and question.plan in ours:
             mus[question.plan] = mu.nearest(ours[question.plan])
     exact = marked.seen is not None  # as drawings of a computer are: that tells nothing of them
-    segments = {} if exact else measured(answers, marked.marking.key, mus, follows)
+    told = {name for candidate in marked.candidates for name in candidate.explained}
+    faulty = (line.name for line in marked.marking.lines if line.verdict.faulty)
+    wrong = {name: KNOWN if name in told else ALIKE for name in faulty}
+    segments = {} if exact else measured(answers, marked.marking.key, mus, follows, wrong)
     best = marked.candidates[0].mistakes if marked.candidates and not (marked.slips or marked.untold) else ()
     ids = marked.candidates[0].ids if marked.candidates and not marked.slips else frozenset[str]()
     return Result(
