@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -14,12 +15,13 @@ import pytest
 
 from kulman import all_variants, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.plans.linkages.solved import SolvedLinkage
 from kulman.scales.errors import InputError
 from kulman.scales.units import format_unit
 from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.case import Case, Request
+from kulman.variants.case import Request
 from kulman.variants.kinds import linkage
 from kulman.variants.kinds.linkage import _short_vectors
 from kulman.variants.making.new_variants import (
@@ -31,7 +33,7 @@ from kulman.variants.making.new_variants import (
 )
 from kulman.variants.reader import read_text
 from kulman.variants.sheets import draw_case
-from kulman.variants.shelf import bundled
+from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.task import Task
 
 TASK = "nau-slider-crank"
@@ -102,22 +104,49 @@ def test_what_would_be_drawn_smaller_is_refused_before_it_is(task: str, settings
     assert len(draw_case(own).pages) == len(draw_case(replace(own, as_wanted=False)).pages)
 
 
-def test_what_is_short_in_all_variants_is_looked_for_in_no_more_of_them_than_needed(
+def test_what_is_short_wherever_a_crank_stands_is_looked_for_in_no_more_places_than_needed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    looked: list[str] = []
+    looked: list[float] = []
 
-    def counted(case: Case) -> set[str]:
-        looked.append(case.variant)
-        return _short_vectors(case)
+    def counted(solved: SolvedLinkage) -> set[str]:
+        looked.append(round(math.degrees(solved.values["phi"])))
+        return _short_vectors(solved)
 
     monkeypatch.setattr(linkage, "_short_vectors", counted)
     fit, poor = (solve_case(TASK, "3", {"phi": phi}, None, None) for phi in ("60°", "180°"))
 
     assert list(fit.kind.unfit(fit)) == []
-    assert looked == ["3"]
+    assert looked == [60]
     assert [error.key for error in poor.kind.unfit(poor)] == ["variant-short"]
-    assert looked == ["3", "3", "0"]  # where the first variant has none, none is short in all
+    assert looked == [60, 180, 240]  # where it has none, none is short wherever the crank stands
+
+
+def test_variants_that_all_stand_in_dead_positions_make_others_that_do_not(tmp_path: Path) -> None:
+    shared = {
+        "l_AB": "180 mm",
+        "l_AS2": "60 mm",
+        "n_1": "1500 rpm",
+        "m_2": "2 kg",
+        "m_3": "2 kg",
+        "J_S2": "0.01 kg*m^2",
+    }
+    two = {
+        phi: {"phi": f"{phi} deg", "l_OA": l_OA, **shared, "F_3": "3 kN"}
+        for phi, l_OA in (("0", "30 mm"), ("180", "45 mm"))
+    }
+    file = tmp_path / "two.toml"
+    file.write_text(_with_variants(bundled_text(TASK), two.items()), encoding="utf-8")
+
+    new = all_variants(file, make=8).new
+
+    assert new is not None
+    rows = [row.values for row in new.task.variants.values()]
+    angles = [math.degrees(row["phi"]) for row in rows]
+    assert len({round(angle) for angle in angles}) > 4
+    assert all(0.0 < angle < 180.0 for angle in angles)
+    assert {round(1e3 * row["l_OA"]) for row in rows} <= {*range(30, 46)}
+    assert len({row["l_OA"] for row in rows}) > 4
 
 
 @pytest.mark.parametrize(

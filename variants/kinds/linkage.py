@@ -13,7 +13,7 @@ from ...plans.laws import TURN
 from ...plans.linkages.chain import PLANS, construct, hinged
 from ...plans.linkages.compound import ACCELERATION, VELOCITY, found_here
 from ...plans.linkages.loads import in_order
-from ...plans.linkages.mechanism import Mechanism
+from ...plans.linkages.mechanism import Driver, Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, read_by_ruler, scale_symbols, solve_linkage
 from ...plans.linkages.structure import analyse
 from ...plans.names import COUPLE, FORCES, Name, role, spelled
@@ -23,7 +23,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Segment, chooser
-from ..case import PARTS, WIDTH, Case, Choices, Kind, Numbers, Plans, Request, Scales
+from ..case import PARTS, WIDTH, Case, Choices, Kind, Numbers, Plans, Scales
 from ..checks.mechanism import branched, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
@@ -44,6 +44,7 @@ if TYPE_CHECKING:
 
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
 SHORT = 0.01  # part of the longest vector of a plan below which another is hardly seen: a millimetre beside 100
+TURNS = range(60, 360, 60)  # degrees, to where else a crank is looked at
 COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
 OPEN = ("", "position", "velocity", "acceleration", "loads")  # sections before the first group is dealt with
 KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
@@ -113,11 +114,19 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
         yield from super().unfit(case)
         yield from _hindered(case.task.mechanism, case.values)
-        short = always = _short_vectors(case)
-        for one in case.task.variants:  # what is so in all of them, as on guides that do not turn, does not count
+        short = always = _short_vectors(SolvedLinkage.of(case.solved))
+        task, driver = case.task, case.task.mechanism.driver
+        others = [(task.values(one), task.words(one)) for one in task.variants]
+        if isinstance(driver, Driver):  # variants may all stand in dead positions
+            turned = (case.values[driver.angle] + math.radians(turn) for turn in TURNS)
+            words = task.words(case.variant, case.settings)
+            others = [(case.values | {driver.angle: angle}, words) for angle in turned]
+        for values, words in others:
             if not always:
                 break
-            always = always & _short_vectors(Request(case.task, one).case())
+            other = self.solve(task.mechanism, values, words, case.plans)
+            if other.trouble is None:  # what is so wherever it stands, as on guides that do not turn, does not count
+                always = always & _short_vectors(other)
         for name in sorted(short - always):
             yield InputError("variant-short", quantity=name)
 
@@ -390,9 +399,8 @@ def _dead(case: Case) -> tuple[SolvedLinkage, ...]:
     return tuple(solve_linkage(drive.mechanism, values, (POSITION,)) for values in places)
 
 
-def _short_vectors(case: Case) -> set[str]:
+def _short_vectors(solved: SolvedLinkage) -> set[str]:
     """Return the velocities that are next to nothing beside the longest one of their plan."""
-    solved = case.solved
     own = (item for name, item in solved.quantities.items() if solved.shown_on.get(name) == "velocity")
     sizes = {item.name: item.value or 0.0 for item in own if item.kind == "vector"}
     return {name for name, size in sizes.items() if size < SHORT * max(sizes.values())}
