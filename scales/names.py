@@ -8,7 +8,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import wraps
-from inspect import signature
+from inspect import Parameter, signature
 from itertools import chain, repeat
 from numbers import Integral
 from typing import Any, ParamSpec, TypeVar
@@ -27,6 +27,7 @@ GREEK = {  # letters, as names of quantities spell them
 LONGEST = 200  # characters of a list of names in a message
 P = ParamSpec("P")
 R = TypeVar("R")
+_PARAMETERS = Parameter.POSITIONAL_OR_KEYWORD, Parameter.VAR_POSITIONAL, Parameter.KEYWORD_ONLY, Parameter.VAR_KEYWORD
 _KINDS: dict[str, tuple[type, ...]] = {  # of the parts of what a signature says of an argument
     "None": (type(None),),
     "PathLike": (str, os.PathLike),
@@ -108,7 +109,7 @@ def of_kind(name: str, value: object, kinds: tuple[type, ...], expected: str) ->
 
 
 def of_its_kinds(*block: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Let a function refuse arguments that are not of the kind that its signature says, and names it does not know.
+    """Let a function refuse arguments that are not of the kind that its signature says, that it lacks or does not know.
 
     Arguments whose kinds are not all in `_KINDS` are left to the function; `block` are the names of its `**block`.
 
@@ -120,13 +121,19 @@ def of_its_kinds(*block: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
     def of_one(function: Callable[P, R]) -> Callable[P, R]:
         arguments_of = signature(function).parameters.values()
         notes = {one.name: "" if one.annotation is one.empty else one.annotation for one in arguments_of}
-        places = [one.name for one in arguments_of if one.kind in (one.POSITIONAL_OR_KEYWORD, one.VAR_POSITIONAL)]
-        known = (*(name for name in notes if name != "block"), *block)
+        by_kind = {kind: [one.name for one in arguments_of if one.kind is kind] for kind in _PARAMETERS}
+        usual, several, named_only, others = by_kind.values()
+        places, known = [*usual, *several], [*usual, *named_only, *block]
+        needed = [one.name for one in arguments_of if one.default is one.empty and one.name not in (*several, *others)]
 
         @wraps(function)
         def checked(*arguments: P.args, **named: P.kwargs) -> R:
-            if block:
-                all_known("argument-unknown", named, known)
+            if block or not others:
+                all_known("argument-unknown", named, [name for name in known if name != "self"])
+            if lacking := [name for name in needed if name not in {*places[: len(arguments)], *named}]:
+                raise InputError("argument-missing", name=", ".join(lacking))
+            if not several and (len(arguments) > len(usual) or {*usual[: len(arguments)]} & {*named}):
+                raise InputError("argument-unnamed", known=", ".join(usual), text=quote(arguments[-1]))
             for name, value in (*zip(chain(places, repeat(places[-1])), arguments, strict=False), *named.items()):
                 note = notes.get(name, notes.get("block", ""))
                 kinds = [_KINDS.get(part) for part in note.split(" | ")]

@@ -16,7 +16,7 @@ from typing import Any
 
 from ..drawing.words import notations
 from ..scales.errors import LANGUAGES, InputError, Written, messages
-from ..scales.names import cyrillic, latin, of_kind, unknown
+from ..scales.names import cyrillic, latin, of_its_kinds, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.scale import ANGLES, LENGTHS, METRE, PAPER, chooser
 from .case import Kind, kind_of
@@ -73,6 +73,7 @@ class TaskFileError(InputError):
         return f"{line} {more}"
 
 
+@of_its_kinds()
 def load_task(task: AnyTask) -> Task:
     """Return the bundled task of this id, or the task in a TOML file; one that is read already as it is.
 

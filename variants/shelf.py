@@ -6,7 +6,7 @@ import re
 import tomllib
 from typing import Any
 
-from ..scales.names import unknown
+from ..scales.names import of_its_kinds, unknown
 from ..scales.packaged import home
 from .kinds import table_in
 
@@ -21,6 +21,7 @@ _GIVEN = re.compile(r'^(\w+) = \{ (?:unit = "([^"]+)"|choices = \[([^]]+)\])', r
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
 
+@of_its_kinds()
 def bundled(kind: str | None = None) -> tuple[str, ...]:
     """Return the ids of the bundled tasks; only those of one kind where its table is said, `mechanism` or `cam`."""
     names = (entry.name for entry in _TASKS.iterdir())

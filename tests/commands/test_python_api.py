@@ -10,6 +10,7 @@ import io
 import json
 import pickle
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -137,6 +138,27 @@ def test_an_argument_of_another_kind_is_refused_by_its_name(verb: str, tmp_path:
     for name in {*named} - {"norm", "advance"}:  # a word that is compared, and what may be anything that is called
         with pytest.raises(KulmanError, match=f"^{name}: expected "):
             VERBS[verb](**{key: needed[key] for key in needed if key in named} | {name: object()})
+
+
+@pytest.mark.parametrize("verb", [*VERBS.values(), kulman.solve_many, kulman.load_task, kulman.tasks])
+def test_arguments_that_python_itself_would_refuse_are_refused_in_the_users_language(verb: Callable[..., Any]) -> None:
+    signed = [*inspect.signature(verb).parameters.values()]
+    needed = [one.name for one in signed if one.default is one.empty and one.kind is one.POSITIONAL_OR_KEYWORD]
+    unnamed = [one.name for one in signed if one.kind is one.POSITIONAL_OR_KEYWORD]
+    wrong: list[tuple[list[str], dict[str, Any], str, str]] = [
+        (["a"] * (len(unnamed) + 1), {}, "argument-unnamed", ", ".join(unnamed)),
+        (["a"] * len(unnamed), {unnamed[0]: "a"}, "argument-unnamed", ", ".join(unnamed)),
+    ]
+    if needed:
+        wrong.append(([], {}, "argument-missing", ", ".join(needed)))
+    if verb is not kulman.solve_many:  # whose other arguments are givens
+        wrong.append((["a"], {f"{unnamed[-1]}x": 3}, "argument-unknown-like", unnamed[-1]))
+
+    for arguments, named, key, part in wrong:
+        with pytest.raises(KulmanError) as caught:
+            verb(*arguments, **named)
+        assert caught.value.key == key
+        assert all(part in caught.value.text(language) for language in LANGUAGES)
 
 
 def test_an_argument_that_there_is_not_is_answered_with_all_that_there_are() -> None:
