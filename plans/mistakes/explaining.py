@@ -23,6 +23,7 @@ from ..marking.again import Judged
 from ..marking.answers import DIRECTION, FREE, Answer, Line, Said, Verdict, known, miss, nearest
 from ..marking.key import Key
 from ..marking.verdicts import CLEAR, RATES, Marking, judge
+from ..names import role
 from .book import Book, Complex, Floats, Signature, key_of, signatures
 from .data import miswritten, other_orders, transposed
 from .rules import BY_SCALE, Broken, Scene, broken
@@ -34,6 +35,8 @@ FAR, NEARLY = 1.5, 0.3  # how much worse than the nearest a signature may be to 
 LEFT, SPOILT, SECOND = 0.12, 0.1, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
 ANGLES = 2  # angles of the crank that are looked at closely
 ANGLED = frozenset(("M08", "M09", "M10"))  # mistakes that put the crank at another angle
+# units, and digits exchanged: a number may be written so, and the right one gone on with
+WRITTEN = frozenset(("M01", "M02", "M03", "M04", "M05", "M06", "M123"))
 SLIP = 1.5  # tolerances by which a line that stays wrong misses clearly
 ODD = 1e4  # times the right scale factor that none is
 EXACT, CLOSE = 0.006, 0.03  # parts of a number by which mm times mu, and a calculation, may differ from it
@@ -138,7 +141,13 @@ def explain(book: Book, marking: Marking) -> _Explanation:
     """Find the mistakes that explain the answers of one student; none for answers without an error."""
     if marking.first_wrong is None:
         return _Explanation((), marking)
-    return _Search(book.drawn_to(marking.key, _scales(marking)), marking).explanation()
+    own = book.drawn_to(marking.key, _scales(marking))
+    found = _Search(own, marking).explanation()
+    slip = next((line.name for line in marking.lines if line.verdict.faulty), marking.first_wrong)
+    if found.candidates or slip == marking.first_wrong:
+        return found
+    other = _Search(own, replace(marking, first_wrong=slip)).explanation()  # it may have been none
+    return other if other.candidates else found
 
 
 def _scales(marking: Marking) -> dict[str, float]:
@@ -396,18 +405,31 @@ class _Search:
         astray = np.flatnonzero(right > 1.0)  # not what is undefined, or not said
         if not np.isin(self.first, astray):
             return ()
-        means = _mean(off[:, astray])
-        fitting = [int(i) for i in np.argsort(means, kind="stable") if means[i] <= (1.0 if len(astray) > 1 else ALIKE)]
-        names = [line.name for line in self.marking.lines]
+        lines, means = self.marking.lines, _mean(off[:, astray])
+        names, plan = [line.name for line in lines], lines[self.first].plan
+        passed = [i for i, line in enumerate(lines) if line.verdict.passed]
+        before, beside = [i for i in passed if i < self.first], [i for i in passed if lines[i].plan == plan]
+        against = self.moved & (off > 1.0)
+        likely = (off[:, self.first] <= 1.0) & self.moved[:, self.first] & ~against[:, before].any(axis=1)
+        likely &= means <= (1.0 if len(astray) > 1 else ALIKE)
         found = []
-        for i in fitting:
-            missed = {names[j] for j in astray if off[i, j] > 1.0}
-            explained = tuple(name for name in self.faulty if name not in missed)
-            left = tuple(name for name in self.faulty if name in missed)
-            if off[i, self.first] <= 1.0:
-                mistakes = (self.book.signatures[i].broken,)
-                found.append(Candidate(mistakes, (), explained, left, float(means[i])))
+        for i in np.argsort(means, kind="stable"):
+            mistake = self.book.signatures[i].broken
+            written = mistake.mistake in WRITTEN or (role(mistake.at).shown == names[self.first] and self._exactly(i))
+            if likely[i] and (written or not against[i, beside].any()):
+                missed = {names[j] for j in astray if off[i, j] > 1.0}
+                explained = tuple(name for name in self.faulty if name not in missed)
+                left = tuple(name for name in self.faulty if name in missed)
+                found.append(Candidate((mistake,), (), explained, left, float(means[i])))
         return _simplest(found)[:NEAR]
+
+    def _exactly(self, row: int) -> bool:
+        """Whether the first wrong line is calculated, and gives what a mistake makes of it as exactly as that does."""
+        line, place = self.marking.lines[self.first], self.first
+        own, _ = self._times(line, self.book.table[row], self.book.right[place])
+        size = line.answer.value if line.answer is not None else None
+        exact = size is not None and abs(abs(size) - abs(own[place])) <= EXACT * abs(own[place])
+        return self._calculated(line.name) and bool(exact)
 
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
@@ -424,7 +446,11 @@ class _Search:
         off = np.array([min(line.off, MOST) for line in again if line.answer is not None])
         misses = float(np.sqrt(np.mean(off * off)))
         clear = tuple(i for i, line in enumerate(again) if line.verdict.faulty and line.off > SLIP)
-        spoilt = len({*left} - self.faulty.keys() - {again[i].name for i in clear})
+        clearly = {again[i].name for i in clear}
+        gone_on = last.broken.mistake not in WRITTEN
+        if gone_on and len(clearly - self.faulty.keys()) >= len(explained):
+            return None  # of what follows less is explained than is spoilt
+        spoilt = len({*left} - self.faulty.keys() - clearly)
         missed = sum(min(again[i].off, MOST) for i in clear)
         rank = misses + LEFT * missed + SPOILT * spoilt + SECOND * (len(chain) - 1)
         moved, order = ~(np.abs(last.row - self.book.right) <= self.book.allowed), (rank, 0)

@@ -216,6 +216,31 @@ def test_unlike_slips_are_not_explained_by_a_chain_of_more_mistakes_than_lines()
     assert [[one.mistake for one in found.mistakes] for found in marked.candidates] == []
 
 
+@pytest.mark.parametrize(
+    ("task", "name", "times"),
+    some(
+        [
+            ("scheme-08-planer", "a_S2", 0.43),
+            ("nau-slider-crank", "omega_2", 2.0),
+            ("scheme-04-v-engine", "epsilon_2", 2.32),
+            ("scheme-01-compressor", "V_A", 2.0),
+            ("scheme-05-articulated-rod", "a_E", 2.0),
+            ("scheme-14-jaw-crusher", "a_BA", 0.41),
+        ],
+        0,
+        1,
+        2,
+    ),
+)
+def test_a_value_alone_is_not_explained_by_what_would_spoil_others_as_well(task: str, name: str, times: float) -> None:
+    right = right_answers(key(task))
+
+    found = explained(task, [replace(a, value=(a.value or 0.0) * times) if a.name == name else a for a in right])
+
+    assert [line.name for line in found.marking.lines if line.verdict.faulty] == [name]
+    assert [[one.place for one in candidate.mistakes] for candidate in found.candidates] == []
+
+
 def test_right_answers_have_no_explanation() -> None:
     for task in FEW:
         assert explained(task, right_answers(key(task))).candidates == ()
