@@ -137,9 +137,6 @@ class Envelope(ABC):
         if part is not None:
             point, along = self.across(phi, part)
         else:
-            jumps = [jump.phi for jump in self.motion.velocity_jumps]
-            near = min((at - phi for jump in jumps for at in (jump, jump + TURN)), key=abs, default=0.0)
-            side = -1 if near > 0.0 else 1 if near < 0.0 else side
             point, along = self.practical(phi, side), self.tangent(phi, side)
         return complex(point), complex(along)
 

@@ -303,13 +303,14 @@ def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
     assert 0.0 < above.undercuts[0].lost < 1e-6
 
 
-def test_velocity_that_drops_undercuts_at_any_radius_and_has_a_point_on_either_side() -> None:
-    motion = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
+@pytest.mark.parametrize("rise", some([2.0, 0.3, 0.9, 1.3], 0, 3))  # places of angles are rounded, those of 2 are not
+def test_velocity_that_drops_undercuts_at_any_radius_and_has_a_point_on_either_side(rise: float) -> None:
+    motion = Motion(0.01, rise, 0.5, 2.0, law_of_motion("uniform"))
 
     profile = RollerProfile(Straight(motion), Sizes(0.05, 0.0, 0.05), 1e-3)
 
     assert profile.rho_min == 0.0
-    assert all(any(cut.start < phi < cut.end for cut in profile.undercuts) for phi in (2.0, 2.5))
+    assert all(any(cut.start < phi < cut.end for cut in profile.undercuts) for phi in (rise, rise + 0.5))
     for drop in motion.drops:
         before, after = (profile.at(float(profile.places(drop, side)), side)[0] for side in (-1, 1))
         assert before == pytest.approx(complex(profile.practical(drop, -1)), abs=1e-12)
