@@ -147,6 +147,8 @@ def _exploded(insert):
         pytest.param(f'<defs><g id="a">{LINES}</g></defs><use href="#a" x="1" y="2"/>', [11 + 58j, 61 + 58j], id="use"),
         pytest.param('<style>.k{stroke:#000;fill:none}</style><path class="k" d="M1,1C2 2 3 3 4 4L4 14"/>',
                      [4 + 76j, 4 + 66j], id="class, behind a curve"),
+        pytest.param('<rect x="10" y="20" width="30" height="5" stroke="#000" fill="none"/>', [10 + 60j, 40 + 60j],
+                     id="rectangle"),
         pytest.param('<line x1="0" y1="0" x2="8" y2="0" stroke="#000"/><polygon points="10,0 7,1 7,-1"/>',
                      [80j, 10 + 80j], id="as far as the point of its arrowhead"),
         pytest.param('<line x1="10" y1="0" x2="2" y2="0" stroke="#000"/><polygon points="0,0 3,1 3,-1"/>',

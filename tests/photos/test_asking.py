@@ -20,6 +20,7 @@ from kulman.variants.marking.reading import Answers, stem_of
 from kulman.variants.photos.asking import OUT, EndAsk, Told, ends_asked, gathered, page_of
 from kulman.variants.photos.pictures import Photo
 from kulman.variants.roster import Entry, Roster, Who
+from kulman.variants.serving.making import _Asker
 
 Settled = list[tuple[Desk, Answers, list[EndAsk]]]
 
@@ -57,6 +58,10 @@ def test_what_is_asked_of_pages(ready: Check, read: list[Answers]) -> None:
     }
     assert len(found) == 4  # nothing is lost where nobody answers
     assert all(picture.startswith(b"\x89PNG") for ask in asks for picture in ask.pictures)
+
+
+def test_nothing_is_asked_of_a_student_whose_variant_there_is_not(ready: Check) -> None:
+    assert _Asker(ready).begin()(Answers("x.jpg", Who(), {"variant": "99"}, {}, {})) == ([], {})
 
 
 @pytest.mark.soak

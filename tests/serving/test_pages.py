@@ -18,6 +18,8 @@ import kulman
 from kulman.tests.support.answer_files import write
 from kulman.variants.marking.checks import write_tables
 from kulman.variants.marking.report import report_html
+from kulman.variants.serving.making import Job
+from kulman.variants.serving.pages import Door, job
 from kulman.variants.shelf import bundled, bundled_text, guide_text, guides
 
 TASK = "nau-slider-crank"
@@ -44,6 +46,15 @@ def finished(client: TestClient, begun: Any) -> str:
             return str(path.partition("?")[0])
         time.sleep(0.1)
     raise AssertionError(state)
+
+
+@pytest.mark.parametrize(("done", "whole", "told"), [(0, 0, "0 of …"), (2, 5, "2 of 5")])
+def test_work_whose_extent_is_not_known_yet_is_told_without_it(done: int, whole: int, told: str) -> None:
+    door = Door("", "en", False, "teacher", "forms", {})
+
+    page = unescape(job(door, Job("x", "Class", done, whole)))
+
+    assert re.findall(r"\d+ of [\d…]+", page) == [told] * 3  # the bar, its name, the line below
 
 
 def test_every_task_stands_on_the_first_page_with_its_picture(client: TestClient) -> None:

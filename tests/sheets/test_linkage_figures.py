@@ -813,3 +813,11 @@ def test_an_arrow_leaves_a_block_where_its_side_is_however_the_guide_lies(turn: 
     assert across == pytest.approx(0.5 * height)
     out = at - block.at + slanted * u * cmath.rect(1.0, 0.7)
     assert abs((out / u).real) >= 0.5 * length - 1e-9 or abs((out / u).imag) >= 0.5 * height - 1e-9
+
+
+def test_arrows_of_a_field_of_velocities_have_room_and_do_not_reach_each_other() -> None:
+    field = drawn("nau-slider-crank", "cycle")[1]["field"].vectors
+    apart = min(abs(a.tail - b.tail) for a, b in combinations(field, 2))
+
+    assert 4.0 * STYLE.arrow < apart < 6.0 * STYLE.arrow
+    assert apart / 3.0 < max(abs(vector.tip - vector.tail) for vector in field) < apart

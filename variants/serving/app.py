@@ -300,8 +300,7 @@ class _Answers:
 
     async def job_state(self, request: Request) -> Response:
         job, door = self.found_job(request), self.desk.door(request)
-        far = door.said["job.far"].format(done=job.done, whole=job.whole or "…")
-        return JSONResponse({"done": job.done, "whole": job.whole, "over": job.over, "said": far})
+        return JSONResponse({"done": job.done, "whole": job.whole, "over": job.over, "said": pages.job_far(door, job)})
 
     async def job_archive(self, request: Request) -> Response:
         job = self.found_job(request)

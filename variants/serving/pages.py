@@ -551,13 +551,18 @@ def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> st
     )
 
 
+def job_far(door: Door, work: Job) -> str:
+    """Return how far the work for a class is, in words."""
+    return door.said["job.far"].format(done=work.done, whole=work.whole or "…")
+
+
 def job(door: Door, work: Job, asked: bool = False) -> str:
     """Return the page of the work for a class: how far it is, or what has come of it, and if it was `asked` about."""
     said, path = door.said, f"/job/{work.name}"
     if work.problem:
         body = [note(work.problem, kind="problem")]
     elif work.outcome is None:
-        far = said["job.far"].format(done=work.done, whole=work.whole or "…")
+        far = job_far(door, work)
         bar = tag("progress", far, value=work.done if work.whole else None, max=work.whole or 1, aria_label=far)
         body = [tag("p", bar, " ", tag("output", far), id="far", data_state=f"{door.root}{path}/state"),
                 tag("p", tag("a", said["job.look"], href=door.link(path)))]  # fmt: skip
