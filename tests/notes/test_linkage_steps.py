@@ -134,7 +134,12 @@ def test_coriolis_is_laid_off_across_the_sliding_and_compound_motion_told_where_
     assert "Join C and A: the line CA of the slotted link." in shaper.steps["position"]
     for view in ("compound_velocity", *(f"compound_a_{point}" for point in "BMDK")):
         assert len(compound.steps[view]) >= 6
-        assert compound.equations[view]
+        parts = [part for line in compound.equations[view] for part in line if r"\bar{" in part]
+        kind = "v" if view == "compound_velocity" else "a"
+        assert parts
+        assert {letter for part in parts for letter in re.findall(r"\\bar\{(\w)\}", part)} == {kind}
+        # across a link lies a tangential part: the whole acceleration has a normal one, too
+        assert all("t}" in part for part in parts if "⊥" in part and kind == "a")
     assert not any("P_" in text for text in compound.steps["position"])  # centres are marked with the velocities
     assert any("instant centre P_{AB}" in text for text in compound.steps["compound_velocity"])
 

@@ -442,6 +442,8 @@ def c7_practical(case: CamCase, sheet: Sheet) -> Faults:
         yield from unless(clear > -NEAR and (cut or clear < NEAR), f"roller {i} is {clear} mm off the profile")
     for role, name in (("link", "rod"), ("spring", "spring"), ("guide", "guide"), ("shaft", "O")):
         yield from unless(bool(view.inside(role, name)), f"no {name} is drawn")
+    rod, guide = ([p.real for s in view.inside(*of) for p in s.points] for of in (("link", "rod"), ("guide", "guide")))
+    yield from unless(min(guide) < 0.5 * (min(rod) + max(rod)) < max(guide), "the rod is not guided on both sides")
     sharpest = any(k == "sharpest" for r in view.rings for k, _ in r.path)
     yield from unless(sharpest or roller.profile.rho_min == 0.0, "the place of rho_min is not marked")
     normal, *pieces = view.lines("normal")  # far from one another, where it breaks off at what stands on it

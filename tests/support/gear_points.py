@@ -197,8 +197,10 @@ def z1_scale(case: GearCase, sheet: Sheet) -> Faults:
     first, second = tips(whole, "a_w")
     yield from unless(abs(abs(first - second) - abs(above - below)) < NEAR, "the dimension of a_w is not O1O2")
     axis = one(whole.lines("axis", "O1O2"))
-    for at in (below, above):
+    for name, at, out in (("O1", below, below - above), ("O2", above, above - below)):
         yield from unless(abs(cross(axis[1] - axis[0], at - axis[0])) < NEAR * abs(axis[1] - axis[0]), "O off the axis")
+        feet = [p - at for stroke in whole.inside("pivot", name) for p in stroke.points]
+        yield from unless(sum((foot / out).real for foot in feet) > 0.0, f"the support of {name} is among the teeth")
 
 
 def z2_circles(case: GearCase, sheet: Sheet) -> Faults:
