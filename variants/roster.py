@@ -32,6 +32,7 @@ NAMED = {*KEYS, "first"}  # columns of which a roster has one
 SCHEME, VARIANT, NOTHING = "scheme", "variant", "-"
 MEANINGS = (VARIANT, SCHEME, NOTHING)
 _MEANT = {"task": SCHEME, "variant": VARIANT}  # by what a column of such a name holds
+INITIALS = 3  # letters that may stand for a name
 MOST = 9  # digits that have a meaning
 _SHORTENED = re.compile(r"\d[.,]\d*E\+?\d+", re.IGNORECASE)  # 1,23E+11: what a spreadsheet leaves of a long number
 _FLOAT = re.compile(r"(\d+)[.,]0")  # 417.0: what a table of numbers makes of 417
@@ -93,11 +94,11 @@ class Roster:
     def find(self, who: Who, variant: str = "") -> Entry | None:
         """Return the entry of a student: by number, record book, e-mail or name, whichever is there first.
 
-        Of several the one of the same group, then of the same variant, is meant.
+        Of several the one of the same group, then of the same variant, is meant. A name that nobody has so may be one
+        with initials, without a patronymic, or with the surname last.
         """
-        for key in KEYS:
-            said = _folded(getattr(who, key))
-            found = self._by_key.get((key, said), []) if said else []
+        ways = (self._by_key.get((key, said), []) for key in KEYS if (said := _folded(getattr(who, key))))
+        for found in (*ways, [entry for entry in self.entries if _same_person(who.student, entry.who.student)]):
             grouped = [entry for entry in found if _folded(entry.who.group) == _folded(who.group)] or found
             for several in (found, grouped, [entry for entry in grouped if variant and entry.variant == variant]):
                 if len(several) == 1:
@@ -155,6 +156,26 @@ def collated(text: str, language: str) -> tuple[tuple[int, str], ...]:
 def _folded(text: str) -> str:
     """Return a name without what people write differently: capitals, apostrophes, dots, spaces."""
     return re.sub(r"[\s.'’ʼ`]+", "", text.casefold().replace("ё", "е"))
+
+
+def _same_person(one: str, other: str) -> bool:
+    """Whether two names may be one student's: words in any order, or surname and initials, or fewer given names.
+
+    >>> _same_person("Коваль О. І.", "Коваль Ольга"), _same_person("Ольга Коваль", "Коваль Ольга Іванівна")
+    (True, True)
+    >>> _same_person("Коваль Олег", "Коваль Ольга"), _same_person("Ольга", "Коваль Ольга")
+    (False, False)
+    """
+    short, whole = sorted(
+        ([_folded(word) for word in re.split(r"[\s.]+", name) if word] for name in (one, other)), key=len
+    )
+    if len(short) < 2:
+        return False
+    if {*short} <= {*whole}:
+        return True
+    pairs = (sorted(pair, key=len) for pair in zip(short[1:], whole[1:], strict=False))
+    alike = (a == b or (len(a) <= INITIALS and b.startswith(a)) for a, b in pairs)
+    return short[0] == whole[0] and all(alike)
 
 
 @dataclass(frozen=True, slots=True)

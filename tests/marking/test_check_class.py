@@ -419,6 +419,31 @@ def test_namesakes_are_told_apart_by_group_and_by_variant(tmp_path: Path) -> Non
     assert [[entry.who.student, entry.who.group, entry.variant] for entry in entries if entry] == of
 
 
+def test_a_student_with_initials_is_found_in_the_roster_and_a_stranger_is_told_beside_the_name(
+    tmp_path: Path, run: Run
+) -> None:
+    """Both were told apart by a note in the report alone: the one had handed in nothing, too."""
+    names = ("Коваль Ольга Іванівна", "Бондар Іван", "Бондар Ірина", "Мельник Г. П.", "Гончар Олег")
+    roster = write(tmp_path, [["student", "variant"], *([name, "3"] for name in names)], name="roster")
+    said = (
+        "Коваль О.",
+        "Бондар Ір.",
+        "Бондар І.",
+        "Ганна Мельник",
+        "Мельник Ганна Петрівна",
+        "Олег Гончар",
+        "Гончар Ольга",
+    )
+    file = write(tmp_path, [["student", "V_B, m/s"], *([name, "5,62"] for name in said)], name="class")
+
+    _, out, _ = run("check", TASK, file, "--roster", roster, "--lang", "en")
+
+    strangers = [line.partition("  ")[0] for line in out.splitlines() if "is not in the roster" in line]
+    assert strangers == ["Бондар І.", "Ганна Мельник", "Гончар Ольга"]
+    absent = [line.partition("  ")[0] for line in out.splitlines() if "nothing handed in" in line]
+    assert absent == ["Бондар Іван"]
+
+
 def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(tmp_path: Path, run: Run) -> None:
     file, page, marks = class_file(tmp_path, 8), tmp_path / "class.html", tmp_path / "marks.csv"
     head, *lines = (line.split(";") for line in file.read_text(encoding="utf-8-sig").splitlines())

@@ -13,9 +13,10 @@ from ...plans.marking.drawn import Recognised
 from ...plans.marking.key import Key
 from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, Spoken
 from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
+from ...scales.packaged import packaged
 from ..case import Request, Settings, plans_wanted
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, sheet_id, task_of_id, variant_of_id
@@ -381,6 +382,17 @@ def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) ->
     return replace(found, recognised=Recognised(read.plans, sure, (*read.missing, *sorted(doubtful))))
 
 
+class _PlanNames(Spoken):
+    """The ids of plans with commas between, which a message says in its language."""
+
+    __slots__ = ()
+
+    def said(self, language: str) -> str:
+        """Return what the plans are called; in English they are their ids."""
+        words = packaged("kulman.drawing", "texts", language)
+        return ", ".join(words.get(f"hand.plan.{plan}", plan) for plan in self.split(", "))
+
+
 def _plans_of(terms: Terms, answers: Answers) -> tuple[tuple[str, ...] | None, list[KulmanError]]:
     """Return the plans that a form says it is for, unless those named for marking are the same; and what is told."""
     written, marked = answers.about.get(PLANS, ""), terms.request.only
@@ -390,7 +402,7 @@ def _plans_of(terms: Terms, answers: Answers) -> tuple[tuple[str, ...] | None, l
         return None, [error]
     if plans is None or set(plans) == {*(marked or ())}:
         return None, []
-    said = {"plans": ", ".join(plans), "marked": ", ".join(marked or ())}
+    said = {"plans": _PlanNames(", ".join(plans)), "marked": _PlanNames(", ".join(marked or ()))}
     return None if marked else plans, [InputError("marked-plans-other" if marked else "marked-plans", **said)]
 
 

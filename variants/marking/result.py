@@ -41,7 +41,8 @@ CERTAIN = 0.6  # the chance that two honest readings are the same is no more tha
 WIDEST = 2.0  # mm of spread
 BEST = 0.242  # 1/sqrt(2 pi e): density of a normal law at its deviation, at the deviation where it is largest
 ROUNDING = 1e-6  # mm
-CONTRADICTS = {f"marked-{of}" for of in ("task", "variant", "data", "data-other", "sheet", "sheet-variant")}  # notes
+OF = ("stranger", "task", "variant", "data", "data-other", "sheet", "sheet-variant")
+CONTRADICTS = {f"marked-{of}" for of in OF}  # keys of notes
 LISTS = ("mistakes", "notes", "reports", "plans", "absent", "perhaps", "contradicts")  # of a result
 
 
@@ -204,7 +205,7 @@ class Result:
 
     `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing; `perhaps` are
     mistakes that these answers do not tell from the others, `slips` that only the hand may have slipped; `contradicts`
-    what the answers say of task, variant or data that is not what the teacher has said of them.
+    what the answers say of student, task, variant or data that is not what the teacher has said.
     """
 
     source: str
@@ -317,7 +318,7 @@ def failed(answers: Answers, entry: Entry | None, error: KulmanError, language: 
     # what another task asks is no problem of these answers
     problems = () if error.key == "marked-other-task" else answers.problems
     notes = (told, *(problem.text(language) for problem in problems))
-    return Result(answers.source, entry.who if entry else answers.who, notes=notes)
+    return Result(answers.source, entry.who if entry else answers.who, entry.variant if entry else "", notes=notes)
 
 
 Lines: TypeAlias = Sequence[Result | Entry]  # of a class: who has handed in, and who has not
