@@ -71,6 +71,19 @@ def test_an_arm_of_the_lever_is_told_in_the_millimetres_in_which_it_was_drawn(ru
     assert [float(answer) for answer, _ in told] == pytest.approx([float(right) for _, right in told], abs=0.11)
 
 
+@pytest.mark.parametrize(
+    "cells", ["18,3;;", "18,3;;18,3", "18,3;;18,3 мм", "1,83 см;;0,0183 м", ";;18,3", "18,3;;1,83"]
+)
+def test_an_arm_of_the_lever_may_stand_in_both_cells_in_millimetres(tmp_path: Path, cells: str) -> None:
+    """The form states mm for it: who wrote them twice had a wrong unit."""
+    rows = f"mu_V;;0,1;;;\nV_A;58,6;;5,86;;\nh_lever_F_i2;{cells};мм;\n"
+
+    report = check(TASK, "3", lang="en").mark(read(tmp_path, rows, "3"))
+
+    assert [str(line.verdict) for line in report.marked.marking.answered] == ["right", "right"]
+    assert not report.marked.answers.problems
+
+
 def rubric(tmp_path: Path, text: str) -> str:
     file = tmp_path / "rubric.toml"
     file.write_text(text, encoding="utf-8")

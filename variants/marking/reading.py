@@ -410,6 +410,11 @@ def _form_row(sheet: _Sheet, row: int, kinds: Mapping[str, int], columns: Column
     if paper and of_value is not None and not sheet.filled(row, kinds.get("mm")):
         here["mm"] = of_value, written  # of an arm on the lever
         here.pop("value")
+    elif paper and sheet.filled(row, of_value):
+        with suppress(InputError):  # both cells may have its millimetres
+            both = (kinds["mm"], columns["mm"][1]), (of_value, written)
+            if len({cells.segment(grid.text(row, column), own_unit)[0] for column, own_unit in both}) == 1:
+                here.pop("value")
     if in_mu and asked.quantities[name].unit.endswith("/mm"):
         # what is asked is a scale factor itself: that it stands in the column of scales makes it no scale of its own
         factor = here.pop("mu")[0]
