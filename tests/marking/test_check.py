@@ -69,6 +69,7 @@ def test_an_arm_of_the_lever_is_told_in_the_millimetres_in_which_it_was_drawn(ru
     told = re.findall(r"h_F\w+ +([\d.]+) mm +([\d.]+) mm .*right", out)
     assert len(told) == len(arms) > 2
     assert [float(answer) for answer, _ in told] == pytest.approx([float(right) for _, right in told], abs=0.11)
+    assert not re.findall(r"h_F\w+ .*m/s", run("check", TASK, answers(tmp_path), "--lang", "en")[1])  # nor one left out
 
 
 @pytest.mark.parametrize(

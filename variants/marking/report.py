@@ -301,9 +301,15 @@ class Report(Saved):
         return f"{self.words.short(round(math.degrees(radians), 1) % 360.0, DIGITS)}°"
 
     def _shown(self, line: Line, value: float | complex) -> str:
-        """Return what is right, or a tolerance: of an arm on the lever in the student's own millimetres."""
-        mm = line.answer.mm if line.answer and line.answer.value is None and is_arm_of_lever(line.name) else None
-        mu = line.way.size / abs(mm) if mm and line.way and line.way.size else None
+        """Return what is right, or a tolerance: of an arm on the lever in the student's own millimetres.
+
+        Where there is no answer they are those of the plan.
+        """
+        mu, answer = None, line.answer
+        if is_arm_of_lever(line.name) and answer is None:
+            mu = self.marked.marking.key.paper.mus.get(line.plan)
+        elif is_arm_of_lever(line.name) and answer and answer.value is None and answer.mm and line.way:
+            mu = line.way.size and line.way.size / abs(answer.mm)
         if not mu or isinstance(value, complex):
             return self._value(line.name, value)
         return f"{self.words.number(abs(value) / mu, 1)} {self.words.spelled('mm')}"
