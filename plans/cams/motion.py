@@ -381,7 +381,7 @@ def _divided(phase: Phase, marked: Iterable[float], sections: int) -> Array:
     for count in range(sections, 2 * sections + 1):
         if all(abs(part * count - round(part * count)) < WHOLE * count for part in parts):
             return phase.start + phase.length * (np.arange(count + 1) / count)
-    counts = [max(1, math.ceil(sections * (b - a))) for a, b in pairwise(parts)]
+    counts = [math.ceil(sections * (b - a)) for a, b in pairwise(parts)]
     steps = [np.linspace(a, b, n, endpoint=False) for (a, b), n in zip(pairwise(parts), counts, strict=True)]
     return phase.start + phase.length * np.append(np.concatenate(steps), 1.0)
 

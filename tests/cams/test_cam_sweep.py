@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -109,7 +110,9 @@ def test_what_an_undercut_profile_loses_is_marked_in_the_csv_and_said() -> None:
     turns = [(math.radians(k) - cut["from"]) % math.tau < cut["to"] - cut["from"] for k in range(360) for cut in cuts]
     inside = np.reshape(turns, (360, len(cuts))).any(axis=1)
     assert marked == np.flatnonzero(inside).tolist()
-    assert "undercut" in found.table()
+    angles = re.findall(r"([\d.]+)°", "".join(line for line in found.table().splitlines() if "undercut" in line))
+    ends = [math.degrees(cut[end]) for cut in cuts for end in ("from", "to")]
+    assert [float(angle) for angle in angles] == pytest.approx(ends, abs=0.05)
 
 
 def test_columns_follow_what_is_solved() -> None:

@@ -218,6 +218,12 @@ def test_rows_are_written_for_every_chart_and_read_back(tmp_path: Path) -> None:
     errors = made(CAM)["sections"].found.errors[NODES, S_MAX]
     assert [float(row["error [%]"]) for row in chosen] == pytest.approx(100.0 * errors)
     assert {row["drawn_by"] for row in sections} == {"exact", *PRESETS}
+    told = re.findall(r"^(\d+) +(\w+), % +(.*)$", only(CAM, "stability").table(), re.MULTILINE)
+    late = [row for row in rows[CAM, "stability"] if row["kind"] == "jump"]
+    for n, name, numbers in told:  # five of the parts of a section
+        of_line = [float(row["error [%]"]) for row in late if (row["sections"], row["quantity"]) == (n, name)]
+        assert [float(part) for part in numbers.replace("−", "-").split()] == pytest.approx(of_line[::5], rel=5e-3)
+    assert {(n, name) for n, name, _ in told} == {(row["sections"], row["quantity"]) for row in late}
     for language in ("uk", "en"):
         (path,) = replace(only(TASK, "stability"), words=made(TASK).words.speaking(language)).save(tmp_path / "a.csv")
         with path.open(encoding="utf-8-sig", newline="") as stream:

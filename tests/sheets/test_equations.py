@@ -275,6 +275,20 @@ def test_forces_moments_and_arms_that_are_zero_are_said_apart(task: str) -> None
     assert not zero or len(found) > 0
 
 
+def test_a_centre_of_mass_on_a_joint_is_found_by_no_similarity() -> None:
+    mechanism = nau_slider_crank()
+    at_A = {**mechanism.link(2).points, "S2": mechanism.link(2).points["A"]}
+    links = tuple(replace(link, points=at_A) if link.number == 2 else link for link in mechanism.links)
+
+    apart, together = (
+        " ".join(map(plain, lines_of(scene_of(one, nau_values()))))
+        for one in (mechanism, replace(mechanism, links=links))
+    )
+
+    assert "as2" in apart
+    assert "as2" not in together
+
+
 def test_frame_is_the_last_link_where_the_notation_says_so() -> None:
     scene = scene_of(nau_slider_crank(), nau_values(), "ru", "artobolevsky")
 
