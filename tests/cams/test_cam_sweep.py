@@ -113,6 +113,9 @@ def test_what_an_undercut_profile_loses_is_marked_in_the_csv_and_said() -> None:
     angles = re.findall(r"([\d.]+)°", "".join(line for line in found.table().splitlines() if "undercut" in line))
     ends = [math.degrees(cut[end]) for cut in cuts for end in ("from", "to")]
     assert [float(angle) for angle in angles] == pytest.approx(ends, abs=0.05)
+    sharpest = re.findall(r"radius of curvature .*: ([\d.]+) mm at phi = ([\d.]+)°", found.table())
+    least = [(end["value"] * 1e3, math.degrees(end["at"])) for end in found.to_json()["rho_min"].values()]
+    assert [(float(rho), float(phi)) for rho, phi in sharpest] == [pytest.approx(end, rel=1e-4) for end in least]
 
 
 def test_columns_follow_what_is_solved() -> None:

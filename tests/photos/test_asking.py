@@ -60,8 +60,11 @@ def test_what_is_asked_of_pages(ready: Check, read: list[Answers]) -> None:
     assert all(picture.startswith(b"\x89PNG") for ask in asks for picture in ask.pictures)
 
 
-def test_nothing_is_asked_of_a_student_whose_variant_there_is_not(ready: Check) -> None:
-    assert _Asker(ready).begin()(Answers("x.jpg", Who(), {"variant": "99"}, {}, {})) == ([], {})
+def test_nothing_is_asked_of_a_student_whose_mechanism_does_not_assemble() -> None:
+    short = Entry(Who(student="Koval"), "1", {"l_AB": "1 mm"}, "r:2")
+    asker = _Asker(replace(check(TASK, lang="en"), roster=Roster((short,))))
+
+    assert asker.begin()(Answers("x.jpg", short.who, {}, {}, {})) == ([], {})
 
 
 @pytest.mark.soak
