@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import subprocess
 import sys
@@ -11,6 +12,8 @@ from pathlib import Path
 import pytest
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LTTextContainer
+from pdfminer.pdfdocument import PDFDocument
+from pdfminer.pdfparser import PDFParser
 
 from kulman import batch, check, load_task, solve
 from kulman.scales.errors import InputError, speaking
@@ -206,6 +209,10 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
     assert 1 in blanks  # behind which stands an empty page: printed on both sides each has a leaf
     assert {name: len(pages) for name, pages in merged.items()} == dict(zip(merged, (6, 3, 3), strict=True))
     assert [next(name for name in names if name in text) for text in texts] == names
+    tree = PDFDocument(PDFParser(io.BytesIO((out / "handouts.pdf").read_bytes()))).catalog["Pages"]
+    documents = [kid.resolve() for kid in tree.resolve()["Kids"]]
+    assert {document["Parent"].objid for document in documents} == {tree.objid}  # `extract_pages` does without
+    assert sum(len(document["Kids"]) for document in documents) == 6
     layers = [(out / name).read_bytes().count(b"/Type /OCG") for name in ("handouts.pdf", "002-Bohdan-3-handout.pdf")]
     assert layers[0] == layers[1] > 0  # those of one name are one
 
