@@ -139,6 +139,17 @@ def test_steps_beyond_the_limit_are_refused_where_oscillations_grow(method: str)
         assert largest > 1e6 if grows else largest < 20.0
 
 
+def test_hoists_of_a_slower_clock_do_the_same_more_slowly() -> None:
+    slow = {"C_01": 1e-2, "C_12": 1e-2, "V_t": 0.1, "a": 1e-2, "g": 1e-2}  # to what a tenfold time brings them
+    usual, slowly = (
+        integrate(values, VERLET, 0.1)
+        for values in (SEVERAL, {name: slow.get(name, 1.0) * value for name, value in SEVERAL.items()})
+    )
+
+    assert slowly.t_1 == pytest.approx(10.0 * usual.t_1, rel=1e-9)
+    assert slowly.F_max == pytest.approx(1e-2 * usual.F_max, rel=1e-9)
+
+
 def test_no_run_that_is_returned_has_grown(monkeypatch: pytest.MonkeyPatch) -> None:
     found, coarse = run(EXPLICIT, 0.01), run(EXPLICIT, 0.1)
 
