@@ -18,7 +18,7 @@ from kulman import sheet, solve
 from kulman.drawing.cams import profile_view
 from kulman.drawing.cams.inversion import PARTS
 from kulman.drawing.formats import STYLES
-from kulman.drawing.shapes import Arc, Text
+from kulman.drawing.shapes import Arc, Group, Text
 from kulman.drawing.view import Canvas
 from kulman.plans.cams.cam import LAWS
 from kulman.plans.laws import LAWS as LAWS_OF_BOARD
@@ -38,7 +38,7 @@ from kulman.tests.support.cam_points import (
     unless,
 )
 from kulman.tests.support.cams import ROCKER
-from kulman.tests.support.cases import some
+from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.readback import Sheet, View, angle, cross, polygon, read, read_back
 from kulman.variants.kinds.cam import RULES
 
@@ -645,3 +645,16 @@ def test_an_angle_whose_letter_has_no_place_beside_it_is_drawn_where_its_arc_is_
     assert [dimension.name for dimension in dimensions] == ["theta_3"]
     assert {shape.radius for shape in dimensions[0].shapes if isinstance(shape, Arc)} == {radius}
     assert [letter.markup for letter in inversion.canvas._letters.values()] == ["theta"]
+
+
+def test_shapes_of_a_law_of_motion_without_scales_are_of_one_height() -> None:
+    case = solve_case("madi-cam")
+    view = case.kind.pictured(case, case.words("en"))
+    assert view is not None
+
+    curves = {shape.name: shape.shapes for shape in view.shapes if isinstance(shape, Group) and shape.role == "curve"}
+    levels = {name: [p.imag for piece in curve for p in piece.points] for name, curve in curves.items()}
+
+    acceleration, travel = (max(level) - min(level) for level in levels.values())
+    assert acceleration == pytest.approx(travel)
+    assert travel > 10.0

@@ -13,6 +13,7 @@ import pytest
 
 from kulman import check, handout, note, solve
 from kulman.drawing.figure import ANSWERS
+from kulman.drawing.gears.text import _calculations
 from kulman.drawing.handouts import begun_pages
 from kulman.drawing.notes.blocks import Steps
 from kulman.drawing.page import Page
@@ -166,6 +167,15 @@ def test_letters_on_leaders_keep_them_on_a_blank_and_none_of_a_begun_sheet_ends_
     assert {"d_w1", "d_w2"} <= leaders
     texts = [shape for shape in second if isinstance(shape, Text)]
     assert leaders <= {name for text in texts for name in (text.name, text.markup)}
+
+
+def test_numbers_of_the_note_that_end_are_written_so_and_others_with_all_digits() -> None:
+    case = whole()
+    scene = case.kind.scene(case, drawn().scales, case.words("en"))
+
+    results = [line[-1] for line in _calculations(scene, ("d_1", "a", "x_sum", "a_w"))]
+
+    assert results == ["= 75 mm", "= 87.5 mm", "= 1.05", "= 92.000 mm"]  # the last is 91.99986 mm
 
 
 @pytest.mark.parametrize("language", [LANGUAGES[0], *SOAKED])
