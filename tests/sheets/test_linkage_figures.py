@@ -22,6 +22,7 @@ from kulman.drawing.linkages.figures.cycle import _Band
 from kulman.drawing.linkages.figures.group import STEP, Sketch, _Arm, _staggered
 from kulman.drawing.linkages.figures.links import Skeleton, _Block
 from kulman.drawing.linkages.figures.plan import letter_marks
+from kulman.drawing.linkages.figures.scheme import CLEAR, _crowd, _points
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.text import lay_out
@@ -821,3 +822,18 @@ def test_arrows_of_a_field_of_velocities_have_room_and_do_not_reach_each_other()
 
     assert 4.0 * STYLE.arrow < apart < 6.0 * STYLE.arrow
     assert apart / 3.0 < max(abs(vector.tip - vector.tail) for vector in field) < apart
+
+
+def test_arcs_are_in_the_way_of_exactly_what_they_come_near() -> None:
+    random = np.random.default_rng(80)
+    ends, sizes = random.uniform(-60.0, 60.0, (6, 4)), random.uniform(0.0, 2.0, 6)
+    busy = [(complex(*e[:2]), complex(*e[2:]), size, 1.0) for e, size in zip(ends, sizes, strict=True)]
+    radii, angles = random.uniform(5.0, 50.0, (60, 1)), random.uniform(0.0, 6.0, (60, 1))
+
+    points = _points(0j, radii, angles, np.array([[0.2, 0.5]]))
+
+    lines = shapely.linestrings(ends.reshape(6, 2, 2))
+    gaps = shapely.distance(shapely.points(points.real, points.imag)[..., None], lines) - sizes
+    near = gaps.min(axis=(2, 3)) < CLEAR
+    assert 20 < near.sum() < 100
+    assert np.array_equal(_crowd(points, busy) > 0.0, near)
