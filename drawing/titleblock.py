@@ -372,7 +372,7 @@ def _placed(lines: list[str], cell: Box, height: float, anchor: Anchor, name: st
     x = {"left": x0 + SIDE, "middle": (x0 + x1) / 2, "right": x1 - SIDE}[anchor]
     depth, bottom, top = _extent(lines, height)
     y = (y0 + y1 + depth) / 2 - height
-    if y + top > y1 - CLEAR or y + bottom < y0 + CLEAR:  # a capital with a breve, a deep bracket
+    if y + top > y1 - CLEAR:  # a capital with a breve; no tail is so deep
         y = (y0 + y1 - top - bottom) / 2
     return [
         Text(complex(x, y - row * PITCH * height), escape(line), height, anchor, role="stamp", name=name)

@@ -11,7 +11,7 @@ from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_name
 from kulman.drawing.page import Page, extent
 from kulman.drawing.shapes import Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
-from kulman.drawing.titleblock import Stamp, _named, frame_shapes, words
+from kulman.drawing.titleblock import CLEAR, Stamp, _fits, _named, _placed, frame_shapes, words
 from kulman.scales.errors import InputError
 from kulman.tests.support.shapes import leaves
 from kulman.variants.reader import load_task
@@ -167,6 +167,16 @@ def test_a_long_title_shrinks_and_wraps_and_a_name_that_no_letters_can_fit_is_re
         page("A3", "uk", stamp=Stamp(student="Ш" * 60))
     assert problem.value.key == "stamp-too-long"
     assert all(problem.value.text(language) for language in STAMPS)
+
+
+@pytest.mark.parametrize("lines", [["Йосип"], ["[щ]"], ["Йод", "[щ]"]], ids=["breve", "brackets", "both"])
+def test_ink_keeps_clear_of_the_lines_of_every_cell_that_it_fits_in(lines: list[str]) -> None:
+    fitting = [0.1 * high for high in range(30, 200) if _fits(lines, 3.5, 0.1 * high)]
+
+    for high in fitting:
+        _, low, _, top = extent(_placed(lines, (0.0, 0.0, 50.0, high), 3.5, "left", "title"))
+        assert CLEAR - 1e-9 < low < top < high - CLEAR + 1e-9
+    assert len(fitting) > 50
 
 
 def test_captions_are_words_of_their_language() -> None:
