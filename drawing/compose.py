@@ -10,7 +10,7 @@ from functools import cache, lru_cache
 from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
 
 from ..scales.scale import Scale
-from .formats import FORMATS, STYLES, Format, Norm, drawing_area, reserved_boxes, usable
+from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
 from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
 from .page import STATEMENT, TASK_VIEWS, Page
 from .shapes import Group
@@ -28,16 +28,15 @@ FULL = 0.69  # part of a page that views should take at least before the next on
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
 TABLE, LEAD = range(2)  # kinds of texts that may have larger letters, beside what tells of the work
 MANY = 3  # pages on which views may come in another order
-ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
+ENOUGH = {"A4": 0.502, "A3": 0.652, "A2": 0.652, "A1": 0.652}  # part of a page below which texts break for it
 ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
 GROWN = 2.0  # times as large as before are texts with larger letters
 CROWDED = 0.85  # part of a page that views, with what is between them, never fill
 LARGE = {TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TABLE, TOLD}, {TOLD}, {TABLE, LEAD}, {TABLE}, {LEAD}, set[int]()
 KEPT = 8  # parts of the views of a page that are tried in reading order
 BARE = 0.105  # part of a page that may be one bare rectangle
-EMPTY = 0.116  # the same, between lines
-INK = {FIGURE: 1.0, TEXT: 0.5, TOLD: 0.5}  # mm between the lines of a view and its box
-OVER = 0.44  # heights of a heading between its letters and the box of its view
+EMPTY = 0.119  # the same, between lines
+SIDE = 0.5  # mm between the lines of a text and the sides of its box
 # heights of rows, mm, and the part of the width of a page that tables take, as wide as the widest of them or more
 ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
 HIGH = 0.0, *(row for row, part in ROWS if not part)  # of these in reading order, tables as wide as they are
@@ -351,10 +350,9 @@ def _box_of(standing: Standing) -> Box:
 def _lacks(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> tuple[float, float]:
     """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
     room, boxes = drawing_area(sheet, norm), [*reserved_boxes(sheet, norm, first=first)]
-    over = OVER * STYLES[sheet.letters].heading
-    for standing, kind in zip(page, begins_of(view for view, _ in page), strict=True):
-        (left, low, right, high), edge = _box_of(standing), INK[kind]
-        boxes.append((left + edge, low + edge, right - edge, high - over))
+    for view, at in page:
+        x, y, (left, low, right, high) = at.x - view.box[0], at.y - view.box[1], view.ink
+        boxes.append((x + left, y + low, x + right, y + high))
     area = (room[2] - room[0]) * (room[3] - room[1])
     fill = sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / area
     return max(0.0, ENOUGH[sheet.letters] - fill), max(0.0, bare(room, boxes) / area - EMPTY)
@@ -622,7 +620,7 @@ class _Parting:
         """Return a table with rows so high, a text no wider than that, or either with larger letters, once."""
         key = id(view), wide, row
         if key not in self._made:
-            inner = wide - 2.0 * INK[TEXT]
+            inner = wide - 2.0 * SIDE
             changed = roomier(view, inner, row) if row else narrower(view, inner) if wide else larger(view, True)
             self._made[key] = changed
         return self._made[key]

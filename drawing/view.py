@@ -6,6 +6,7 @@ from cmath import rect
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import count, pairwise
 from math import pi
 from typing import NamedTuple, assert_never
@@ -43,7 +44,7 @@ class _Whole(NamedTuple):
     boxes: Mapping[Box, str]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class View:
     """A finished figure: its shapes and the box that they fill, mm.
 
@@ -81,6 +82,11 @@ class View:
     def size(self) -> tuple[float, float]:
         """Width and height."""
         return self.box[2] - self.box[0], self.box[3] - self.box[1]
+
+    @cached_property
+    def ink(self) -> Box:
+        """The box of what is drawn, mm: less than that of the view, which keeps clear of others."""
+        return extent(self.shapes) if self.shapes else self.box
 
     def at(self, x: float, y: float) -> Group:
         """Return the view as a group whose lower left corner stands at x, y."""

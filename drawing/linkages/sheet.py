@@ -268,7 +268,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
         raise InputError("sheet-too-small", format=way.name)
     way, (views, rungs, places) = fewest
     if whole is not None and last(places) > 0:
-        found, drawn = _enlarged(fitting, whole, fewest[1])
+        found, drawn = _resized(fitting, whole, fewest[1])
         if sheet == whole:
             return drawn
         rungs = found[1]
@@ -287,21 +287,31 @@ def _composed(fitting: _Fitting, found: Found, sheet: Format, smaller: bool = Fa
     return compose(views, places, fitting.scales(rungs), sheet, contents.norm, goes_on, smaller=smaller)
 
 
-def _enlarged(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
-    """Draw several pages; where some are too empty plans are larger, as long as that helps and takes no page more."""
+def _resized(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
+    """Draw several pages; where some are too empty one plan after the other is larger or, where none helps, smaller.
+
+    It stays so as long as pages are less empty then, and no more of them.
+    """
     drawn = _composed(fitting, found, sheet)
     ladders = fitting.extents.ladders
-    for symbol in (symbol for symbol, ladder in ladders.items() if ladder.free and not ladder.chosen):
-        while drawn.short and found[1][symbol] > 0:
-            rungs = found[1] | {symbol: found[1][symbol] - 1}
-            with suppress(InputError):
-                other = _on_pages(fitting, sheet, rungs, last(found[2]) + 1)
-                if other is not None and other[1] == rungs and last(other[2]) <= last(found[2]):
-                    again = _composed(fitting, other, sheet)
-                    if (len(again.sheets), again.short) < (len(drawn.sheets), drawn.short):
-                        found, drawn = other, again
-                        continue
-            break
+    # what the task fixes keeps its scale factor where that has room
+    own = (
+        s for s, ladder in ladders.items() if not ladder.root and (found[1][s] or not (ladder.fixed or ladder.chosen))
+    )
+    larger = [(symbol, -1) for symbol in own]
+    tries = [*larger, *((symbol, 1) for symbol, _ in reversed(larger))]
+    turns = iter(tries)
+    while drawn.short and (turn := next(turns, None)):
+        symbol, step = turn
+        rungs = found[1] | {symbol: found[1][symbol] + step}
+        if not 0 <= rungs[symbol] < len(ladders[symbol].values):
+            continue
+        with suppress(InputError):
+            other = _on_pages(fitting, sheet, rungs, last(found[2]) + 1)
+            if other is not None and other[1] == rungs and last(other[2]) <= last(found[2]):
+                again = _composed(fitting, other, sheet)
+                if (len(again.sheets), again.short) < (len(drawn.sheets), drawn.short):
+                    found, drawn, turns = other, again, iter(tries)
     return found, drawn
 
 
