@@ -233,7 +233,7 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
 
 def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
     """Return what the columns hold, by the words over them."""
-    schemes = of if isinstance(of, Schemes) else Schemes((of,), Digits.of(1))
+    schemes = of if isinstance(of, Schemes) else Schemes((of,))
     known = tuple(dict.fromkeys(name for task in schemes.tasks for name in task.givens))
     symbols = {symbol(name): name for name in known}
     about: dict[str, int] = {}
@@ -259,7 +259,7 @@ def _entry(columns: _Columns, row: int) -> Entry:
     variant = said.get("variant", "")
     with _located(columns, row, "variant"):
         if variant or columns.whole:
-            variant = schemes.variant_of(task, variant, who.book)
+            variant = schemes.variant_of(task, variant, who.book, bool(said.get("task")))
     settings = dict(_settings(columns, row, task))
     return Entry(who, variant, settings, columns.grid.place(row), task=task.id)
 
@@ -359,10 +359,14 @@ def variant_of_book(task: Task, book: str, digits: int | str | Digits = 1) -> st
 
 @dataclass(frozen=True, slots=True)
 class Schemes:
-    """The tasks of a class, the first of which is scheme 1, and how a record book chooses one of them."""
+    """The tasks of a class, the first of which is scheme 1, and how a record book chooses one of them.
+
+    Without `digits` the last one is the variant; of several tasks, where a student's is not named, the last but one,
+    and the last is the scheme.
+    """
 
     tasks: tuple[Task, ...]
-    digits: Digits
+    digits: Digits | None = None
 
     def of(self, said: str, book: str) -> Task:
         """Return the task that a roster names by id or number, else that of the record book, else the only one."""
@@ -371,9 +375,10 @@ class Schemes:
                 return task
         if said:
             raise unknown("task-other", said, self.ids)
-        scheme = self.digits.number(SCHEME, book) if book else None
+        digits = self._digits(named=False)
+        scheme = digits.number(SCHEME, book) if book else None
         if scheme is not None:
-            scheme = scheme or self.digits.top(SCHEME)
+            scheme = scheme or digits.top(SCHEME)
             if scheme > len(self.tasks):
                 raise InputError("roster-scheme", text=quote(book), number=scheme, n=len(self.tasks))
             return self.tasks[scheme - 1]
@@ -381,14 +386,17 @@ class Schemes:
             raise InputError("batch-no-task", known=quote(", ".join(ids), SHOWN))
         return self.tasks[0]
 
-    def variant_of(self, task: Task, said: str, book: str) -> str:
-        """Return the variant that a roster names, else that of the record book; there must be one."""
+    def variant_of(self, task: Task, said: str, book: str, named: bool) -> str:
+        """Return the variant that a roster names, as it may have the task, else that of the book; there must be one."""
         if said:
             return task.variant(said).id
-        found = variant_of_book(task, book, self.digits) if book else ""
+        found = variant_of_book(task, book, self._digits(named)) if book else ""
         if not found:
             raise InputError("batch-no-variant", known=quote(", ".join(task.variants), SHOWN))
         return found
+
+    def _digits(self, named: bool) -> Digits:
+        return self.digits or Digits.of(VARIANT if named or len(self.tasks) == 1 else f"{VARIANT},{SCHEME}")
 
     @property
     def ids(self) -> Sequence[str]:

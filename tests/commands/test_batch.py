@@ -459,6 +459,29 @@ def test_what_the_roster_says_goes_before_the_record_book(tmp_path: Path, tasks:
     assert "C7: no task 'scheme-03'" in str(entries[5].problem)
 
 
+def test_batch_and_check_give_a_student_whose_task_the_roster_names_the_same_variant(tmp_path: Path) -> None:
+    rows = (f"A;71;{SCHEMES[0]};", f"B;82;{SCHEMES[0]};", f"C;53;{SCHEMES[1]};", f"D;64;{SCHEMES[1]};5")
+    file, out = roster(tmp_path, *rows, head="ПІБ;залікова книжка;Завдання;варіант"), tmp_path / "out"
+
+    batch(SCHEMES, file, out, kinds=["svg"], only="velocity", jobs=1, lang="en")
+
+    assert [row["variant"] for row in table(out / "manifest.csv")] == ["1", "2", "3", "5"]
+    for task in SCHEMES[:2]:
+        asked = check(task, roster=file, only="velocity", lang="en")
+        results = asked.mark_all(asked.read(str(out / f"key-{task}.csv")), jobs=1)
+        assert [result.mark for result in results] == [100.0, 100.0]
+
+
+def test_of_several_tasks_a_book_or_a_variant_of_two_students_of_one_is_told(tmp_path: Path) -> None:
+    rows = (f"A;71;{SCHEMES[0]}", f"A;71;{SCHEMES[1]}", f"B;52;{SCHEMES[1]}", f"C;62;{SCHEMES[1]}", f"D;71;{SCHEMES[1]}")
+    file = roster(tmp_path, *rows, head="ПІБ;залікова книжка;Завдання")
+
+    done = batch(SCHEMES[:2], file, tmp_path / "out", kinds=["svg"], only="structure", jobs=1, lang="en")
+
+    said = [(error.key, str(error.data["text"])) for error in done.warnings]
+    assert said == [("roster-book-twice", "71"), ("roster-variant-shared", "1"), ("roster-variant-shared", "2")]
+
+
 def test_data_of_ones_own_are_those_of_ones_own_task(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
     only_one = next(name for name in tasks[1].givens if name not in tasks[0].givens)
     file = roster(tmp_path, "A;01;45", "B;02;45", head=f"{BOOKS};{only_one}")

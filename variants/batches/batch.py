@@ -37,7 +37,7 @@ from ..crew import Advance, Begin, Done, Journal, digest_of, on_cluster, remove_
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
-from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_by_mistake
+from ..roster import WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import BLOCK, PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, save_form
@@ -384,7 +384,7 @@ def batch(
         task alone as a `card`. Beside the last two no solution stands: those have a folder of their own, `solutions`.
     digits : int or str, optional
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
-        for, from left to right: `"variant,scheme"`, which is usual for several tasks.
+        for, from left to right: `"variant,scheme"`, which is usual where the roster names none of several tasks.
     merge : bool
         Write the sheets (`pdf`), handouts and cards of the class as one document each, too, in the order of the roster,
         to be printed on both sides: behind an odd number of pages of a student an empty one follows.
@@ -417,8 +417,7 @@ def batch(
     making = _Making(
         {one.id: _asked_of(Request(one, None, *how)) for one in once}, tuple(dict.fromkeys(kinds)), scan=scan
     )
-    usual = VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"
-    schemes = Schemes(tasks, Digits.of(usual if digits is None else digits))
+    schemes = Schemes(tasks, None if digits is None else Digits.of(digits))
     listed = read_roster(os.fspath(roster), schemes, each=True)
     students = tuple(Student(number, entry) for number, entry in enumerate(listed.entries, 1))
     place = folder_for(folder)
@@ -433,9 +432,12 @@ def batch(
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
-    works = ((student.entry.who, "" if student.entry.settings else student.data[1]) for student in students)
     groups = of_several_groups(student.entry.who for student in students)
-    doubled = shared_by_mistake(works, len(once[0].variants)) if len(once) == 1 else ()
+    doubled = list[InputError]()
+    for one in once:  # a student may have a row for each of several tasks
+        its = [student for student in students if len(once) == 1 or student.entry.task == one.id]
+        works = ((student.entry.who, "" if student.entry.settings else student.data[1]) for student in its)
+        doubled += shared_by_mistake(works, len(one.variants))
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
     removed = (InputError("batch-gone", n=len(gone), file=quote(gone[0], SHOWN)),) if gone else ()
     done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice, *removed))
