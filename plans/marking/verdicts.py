@@ -469,7 +469,9 @@ class Marker:
         """Whether only the convention of the scale factor, or the scale itself, makes a line wrong."""
         question, mm = self.key.questions[name], self.answers[name].mm
         # an arm hangs on the direction of a force, and shows no scale when that is wrong
-        true = self.shown_scale(question.plan) if mm and question.step.verb != "arm" else None
+        true, mu = self.shown_scale(question.plan) if mm and question.step.verb != "arm" else None, self.mus[name]
+        if true and mu and any(abs(way - true) <= SAME * true for way in (mu, 1.0 / mu)):
+            true = None  # it is the student's own, but for what hands miss
         own = (mm * true,) if true is not None and mm else ()
         return self._fits(name, value, (*self.answers[name].measured(self.mus[name]), *own))
 
