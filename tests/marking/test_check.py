@@ -386,6 +386,8 @@ def test_a_right_number_in_a_unit_of_another_quantity_has_a_wrong_unit(tmp_path:
     assert line.verdict == verdict
     assert (report.marked.marking.first_wrong == line.name) is (verdict != "right")
     if verdict == "scale":
+        (said,) = [one["answer"] for one in report.to_json()["lines"] if one["quantity"] == line.name]
+        assert said in ("5.62 км", "5.62 km", "5.62 м/с²", "15.7 м/с", "110 км")  # as it was written
         assert report.lists["again"][0].endswith(": only they are wrong")
         assert "does not fit" in report.lists["notes"][0]
 

@@ -337,7 +337,7 @@ class Desk:
         def counted() -> tuple[Line, ...]:
             return tuple(line for line in marking.lines if line.name in names or (own and line.answer is not None))
 
-        foreign = {line.name for line in answers.lines.values() if line.foreign}
+        foreign = {line.name for line in answers.lines.values() if any(line.foreign)}
         marking, borne = _counted_once(marking, found, {line.name for line in counted()}, foreign)
         fits = on_drawing.fits if on_drawing else ""
         fits = fits or _fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)

@@ -46,13 +46,14 @@ T = TypeVar("T")
 class Reply(Answer):
     """One answered quantity as it stands in a file: at which place, and the scale factor beside it.
 
-    One is `foreign` where the student has written a unit that none of its quantity is: `5,62 km` for metres a second.
+    What is `foreign` are the units of segment and value that the student has written and that none of the quantity is:
+    `5,62 km` for metres a second.
     """
 
     place: str = ""
     decimals: int = 0  # with which the segment was written
     factor: Mu | None = None
-    foreign: bool = False
+    foreign: tuple[str, str] = ("", "")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -266,32 +267,32 @@ class _Sheet:
         if mu is not None:
             self.scales.setdefault(cell.name, mu)
 
-    def value(self, cell: _Cell, text: str) -> tuple[float | None, bool]:
+    def value(self, cell: _Cell, text: str) -> tuple[float | None, str]:
         """Read a value; one with a wrong unit is noted, and taken in the unit of the form.
 
-        Whether the unit is that of another quantity is returned, too: a unit that is none, or has only lost its signs
-        (`мс` for m/s), is a slip of the pen.
+        The unit is returned, too, if it is that of another quantity: one that is none, or has only lost its signs (`мс`
+        for m/s), is a slip of the pen.
         """
         try:
-            return cells.value(text, cell.unit, cell.name, self.asked) if text else None, False
+            return cells.value(text, cell.unit, cell.name, self.asked) if text else None, ""
         except InputError as error:
             self.refuse(cell, error)
             if not error.key.startswith("unit-"):
-                return None, False
+                return None, ""
             names = (error.data.get("text", ""), self.asked.quantities[cell.name].unit)
-            letters = {re.sub(r"\W", "", name) for name in names}
-            return cells.bare(text, cell.name, self.asked), error.key == "unit-wrong" and len(letters) > 1
+            slip = error.key != "unit-wrong" or len({re.sub(r"\W", "", name) for name in names}) == 1
+            return cells.bare(text, cell.name, self.asked), "" if slip else split_number(text)[1] or cell.unit
 
-    def segment(self, cell: _Cell, text: str) -> tuple[float | None, int, bool]:
-        """Read a segment, its decimals, and whether its unit is none of paper: one of kilometres is of millimetres."""
+    def segment(self, cell: _Cell, text: str) -> tuple[float | None, int, str]:
+        """Read a segment, its decimals, and its unit if it is none of paper: one of kilometres is of millimetres."""
         read = self.read(cell, lambda: cells.segment(text, cell.unit)) if text else None
         if read is None:
-            return None, 0, False
+            return None, 0, ""
         written = split_number(text)[1]
         if read[0] <= LONGEST or not written:
-            return *read, False
+            return *read, ""
         self.refuse(cell, InputError("unit-wrong", text=written, expected=UnitName("mm")))
-        return *cells.segment(text.removesuffix(written), ""), True
+        return *cells.segment(text.removesuffix(written), ""), written
 
     def direction(self, cell: _Cell, answered: bool) -> tuple[float | None, int | None]:
         """Read an angle or a sense; an angle is none that a scalar could have, and a sense none of a vector.
@@ -320,10 +321,11 @@ class _Sheet:
         mu, text = self.mu(of_mu), self.number(of_value)
         text, written, angle, sense = self.turned(of_value, text, angle, sense)
         value, foreign = self.value(of_value._replace(unit=written), text)
-        foreign = foreign and (own is not None or bool(split_number(text)[1]))  # over a column it is no student's
+        if foreign and own is None and not split_number(text)[1]:  # over a column it is no student's
+            foreign = ""
         plus = value is not None and text.startswith("+")
         last = None if value is None else cells.rounded(text, value)
-        reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu, foreign or of_no_paper)
+        reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu, (of_no_paper, foreign))
         if not reply.empty and name in self.lines:
             again = InputError("answer-again", place=self.lines[name].place)
             self.refuse(_Cell(row, own, name), again)

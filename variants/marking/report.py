@@ -286,11 +286,15 @@ class Report(Saved):
         if answer is None or answer.empty:
             return "–"
         parts = []
-        written = self.marked.answers.lines[line.name].mm  # in a detail, or on another drawing
+        reply = self.marked.answers.lines[line.name]
+        written = reply.mm  # in a detail, or on another drawing
         if answer.mm is not None or written is not None:
-            parts.append(f"{self.words.short(written or answer.mm or 0.0, DIGITS)} {self.words.spelled('mm')}")
+            unit = reply.foreign[0] or self.words.spelled("mm")
+            parts.append(f"{self.words.short(written or answer.mm or 0.0, DIGITS)} {unit}")
         if answer.value is not None:
-            parts.append("+" * answer.plus + self._value(line.name, answer.value))
+            value = self._value(line.name, answer.value)
+            value = f"{value.rpartition(' ')[0]} {reply.foreign[1]}" if reply.foreign[1] else value
+            parts.append("+" * answer.plus + value)
         if answer.direction is not None:
             parts.append(self._degrees(answer.direction))
         if answer.sense is not None:
