@@ -26,7 +26,7 @@ from ..extents import Rungs
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, Norm, printable, room
 from ..packing import Placement, Size
-from ..page import DATA, STATEMENT
+from ..page import DATA, STATEMENT, TASK
 from ..tables import paged, text_block
 from ..view import View, numbered
 from .calculations.equations import PLANS, kinematics_text
@@ -518,7 +518,8 @@ class _Fitting:
 
         contents = self.contents
         words, style = lettered(contents.words, contents.solved), STYLES[sheet.letters]
-        scene = Scene(contents.solved, words, style, contents.givens, self.scales(rungs), self.runs)
+        found = self._found.setdefault(f"{sheet.name}, {TASK}", {})
+        scene = Scene(contents.solved, words, style, contents.givens, self.scales(rungs), self.runs, found=found)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
         other = not scheme_only(contents.plans)  # plans on which groups and the driver stand, too
         scales = dict.fromkeys(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from ...plans.board import POSITION
 from ...plans.names import LEVER, role
@@ -21,7 +22,7 @@ from .ladders import scheme_mu, scheme_only
 from .scene import Scene
 
 # mm that the links of the scheme take at most, as there is room; so large where directions are taken off it
-BOXES = (140.0, 100.0), (110.0, 80.0), (80.0, 60.0)
+BOXES = (140.0, 100.0), (110.0, 80.0), (80.0, 60.0), (60.0, 45.0)
 SKETCHED = BOXES[2]
 ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)  # scale factors of a scheme, but for powers of ten
 TURNING = ("omega", "epsilon", "M")  # kinds of quantities that have a sense
@@ -42,14 +43,15 @@ def statements(
     if POSITION not in plans and measured and scheme_only(plans):
         yield [kinematic_scheme(scene, scaled=True), *others]
         return
-    yield from ([kinematic_scheme(scene, box), *others] for box in ([SKETCHED] if POSITION in plans else BOXES))
+    for box in BOXES[2:] if POSITION in plans else BOXES[:3]:
+        yield [scene.once(partial(kinematic_scheme, box=box), SCHEME, box), *others]
 
 
 def kinematic_scheme(scene: Scene, box: Size = SKETCHED, scaled: bool = False) -> View:
     """Draw the links in a box, mm: pairs, the driver with its angle and its sense; `scaled` by the scene's mu_l."""
     if not scaled:
         mu = steps(scheme_mu(scene.solved, box), ROUND)[0]
-        scene = replace(scene, scales={**scene.scales, POSITION: Scale("mu_l", mu, "m")}, runs={})
+        scene = replace(scene, scales={POSITION: Scale("mu_l", mu, "m")}, runs={})
     canvas = scene.canvas()
     draw_axes(canvas, scene)
     figures = draw_links(canvas, scene, scene.numbers)
