@@ -249,3 +249,9 @@ def test_quantities_are_read_in_si_and_rounded_no_more_than_by_the_textbook_form
         assert parse(text, unit(expected)) == READ[expected][text]
     assert parse("55,5", unit("m"), unit("mm")) == 0.0555  # a number alone takes the default
     assert parse("0,5", ONE) == 0.5
+
+
+def test_numbers_are_as_short_as_twelve_digits_are() -> None:
+    numbers = 0.1 + 0.2, 2.0 / 3.0, 2e-5 / 3.0, 12.0, 0.0
+
+    assert [*map(Words.of("en", "nau").short, numbers)] == ["0.3", "0.666666666667", "0.00000666666666667", "12", "0"]

@@ -33,7 +33,7 @@ from kulman.drawing.notes.blocks import (
     Table,
     displayed,
 )
-from kulman.drawing.notes.docx import SPACES, _folded_in_word, blocks_in_word, docx_bytes, line
+from kulman.drawing.notes.docx import SPACES, _folded_in_word, _unbroken, blocks_in_word, docx_bytes, line
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.omml import built_up
 from kulman.drawing.text import spelled
@@ -459,3 +459,10 @@ def test_a_framed_note_has_its_frames_behind_the_text_and_numbers_in_their_cells
         pictures = {rel.target_part.partname.ext for rel in part.rels.values()}
         assert pictures == {"png", "svg"}
     assert len({rel.target_part.sha1 for part in headers for rel in part.rels.values() if "png" in rel.target_ref}) == 3
+
+
+def test_equations_are_broken_in_no_brackets_that_a_line_holds() -> None:
+    chunks = ["a =", "(b +", "[c −", "d])·e", "+ f", "= (g", "+ h)"]
+
+    assert [*_unbroken(chunks)] == ["a =", "(b + [c − d])·e", "+ f", "= (g + h)"]
+    assert [*_unbroken(["(" + "b" * 200, "+ c)"])] == ["(" + "b" * 200, "+ c)"]

@@ -34,6 +34,7 @@ from kulman.tests.support.printed_numbers import calculations, evaluate, half_di
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled as shelf
 
+SLIDERS = ("nau-slider-crank", "bertyaev-six-bar", "scheme-04-v-engine", "scheme-09-shaper", "scheme-16-hay-baler")
 SCHEMES = [task for task in shelf("mechanism") if task.startswith("scheme-")]
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 CASES = [(kind, before, bent) for kind in KINDS for before, bent in (((2, 3), True), ((3, 0), False))]
@@ -273,6 +274,20 @@ def test_forces_moments_and_arms_that_are_zero_are_said_apart(task: str) -> None
     assert all(part.endswith(" = 0") for part in told)
     assert all(len({*chain}) == 1 for chain in found), told
     assert not zero or len(found) > 0
+
+
+@pytest.mark.parametrize("task", some(SLIDERS, 0, 3))
+def test_moments_about_the_pin_of_every_slider_are_summed(task: str) -> None:
+    scene = bundled(task)
+    lines = [" ".join(line) for line in lines_of(scene)]
+    names = [step.name for step in scene.program if step.law == "opposite" and role(step.name).kind == "M"]
+
+    told = [
+        any("ΣM" in line and scene.words.symbol(name).replace("M", "h") in line for line in lines) for name in names
+    ]
+
+    assert told
+    assert all(told)
 
 
 def test_a_centre_of_mass_on_a_joint_is_found_by_no_similarity() -> None:
