@@ -226,10 +226,15 @@ def test_figures_of_a_page_are_those_of_the_sheet_and_their_steps_those_of_the_n
 
 
 @pytest.mark.parametrize("task", ["scheme-14-jaw-crusher", "scheme-15-lever-shears", "scheme-08-planer"])
-def test_every_point_with_a_letter_is_drawn(task: str) -> None:
-    shapes = data_of(page_of(task))["views"][0]["shapes"]
+def test_every_point_with_a_letter_is_drawn_and_every_link_between_joints_has_its_number(task: str) -> None:
+    shapes, mechanism = data_of(page_of(task))["views"][0]["shapes"], load_task(task).mechanism
+    ends = {
+        link.number: {pair.point for pair in mechanism.pairs if link.number in pair.links} for link in mechanism.links
+    }
     lettered = {shape["at"] for shape in shapes if shape["k"] == "letter"}
     assert lettered == {shape["at"] for shape in shapes if shape["k"] in ("pin", "pivot", "centre", "block", "guide")}
+    numbered = {shape["link"] for shape in shapes if shape["k"] == "number"}
+    assert numbered == {number for number, points in ends.items() if len(points) > 1}
 
 
 def test_a_page_is_written_beside_the_sheet(tmp_path: Any, run: Run) -> None:
