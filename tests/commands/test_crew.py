@@ -22,7 +22,7 @@ import pytest
 
 from kulman import batch
 from kulman.scales.errors import InputError
-from kulman.scales.kept import COLLECTED
+from kulman.scales.kept import COLLECTED, seldom_collected
 from kulman.tests.support.cases import some
 from kulman.tests.support.commands import files, roster
 from kulman.variants.crew import on_cluster, shared_out
@@ -72,6 +72,18 @@ def test_processes_look_for_garbage_seldom_also_where_they_are_no_copies_of_one_
     found = {one for piece in shared_out(threshold, [1, 2], 1, str, alone=0, afresh=True) for _, one in piece}
 
     assert found == {COLLECTED}
+
+
+@pytest.mark.parametrize(("usual", "meanwhile"), [(0, 0), (700, COLLECTED), (2 * COLLECTED, 2 * COLLECTED)])
+def test_garbage_that_is_looked_for_never_or_more_seldom_yet_is_left_so(usual: int, meanwhile: int) -> None:
+    before = gc.get_threshold()
+    gc.set_threshold(usual, *before[1:])
+    with seldom_collected():
+        found = gc.get_threshold()[0]
+    left = gc.get_threshold()[0]
+    gc.set_threshold(*before)
+
+    assert (found, left) == (meanwhile, usual)
 
 
 def test_an_item_that_kills_its_process_is_found_out() -> None:

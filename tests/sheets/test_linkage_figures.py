@@ -34,7 +34,7 @@ from kulman.tests.support.cases import some
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import Faults, Judged, l1_plan, l5_similarity, l7_senses
 from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
-from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, parallel, read, read_back
+from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, cross, parallel, read, read_back
 from kulman.tests.support.sheet_geometry import NEAR, crosses, same
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet as Drawn
@@ -837,3 +837,16 @@ def test_arcs_are_in_the_way_of_exactly_what_they_come_near() -> None:
     near = gaps.min(axis=(2, 3)) < CLEAR
     assert 20 < near.sum() < 100
     assert np.array_equal(_crowd(points, busy) > 0.0, near)
+
+
+@pytest.mark.parametrize("task", ["scheme-19-scotch-yoke", "scheme-10-shaper-two-blocks"])
+def test_lines_that_find_a_joint_run_past_it(task: str) -> None:
+    view = position(task)
+    lines = [line for line in view.lines("construction") if line.name[-2:] in ("_1", "_2") and len(line.points) == 2]
+
+    for line in lines:
+        at = view.point(line.name[:-2])
+        start, end = line.points
+        assert abs(cross(end - start, at - start)) < NEAR * abs(end - start)
+        assert 3.0 < abs(end - at) < abs(at - start)
+    assert len(lines) == 2
