@@ -294,6 +294,26 @@ def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path, monkeypatch: p
     assert error.value.key == "drawing-large"
 
 
+@pytest.mark.parametrize(
+    ("turn", "ends"),
+    [
+        (0, [10 + 10j, 50 + 10j]),
+        (90, [10 + 190j, 10 + 150j]),
+        (180, [190 + 90j, 150 + 90j]),
+        (270, [90 + 10j, 90 + 50j]),
+    ],
+)
+def test_a_page_that_is_shown_turned_is_read_so_from_its_own_corner(
+    turn: int, ends: list[complex], tmp_path: Path
+) -> None:
+    looks = b"[10 20 210 120] /Rotate %d" % turn  # 200 by 100 points
+    page = pdf(b"20 30 m 60 30 l S").replace(b"[0 0 200 200]", looks)
+
+    found = line_of(read_drawing(of(tmp_path, "x.pdf", page)))
+
+    assert found == pytest.approx([end * 25.4 / 72.0 for end in ends], abs=1e-3)
+
+
 def test_a_scan_is_told_from_a_drawing(tmp_path: Path) -> None:
     import matplotlib.image
     from reportlab.lib.utils import ImageReader
