@@ -7,12 +7,12 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from ...plans.board import POSITION
+from ...plans.board import POSITION, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import FRAME, Driver, Prismatic, Revolute
 from ...plans.linkages.solved import DRIVER, SolvedLinkage
 from ...plans.linkages.structure import TRIAD, Group
-from ...plans.names import FORCES, LEVER, is_shown, role, scale_factor
+from ...plans.names import COUPLE, FORCES, LEVER, is_shown, role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Choosers, CrankScale, Fixed, From, Round, Scale, steps
@@ -31,11 +31,11 @@ SEGMENTS = {
 # moments are more: else two pages have larger plans, and room for their letters
 FEW, CROWDED = 8, 1.8
 # those of other plans may be so many times as long, and are so many times as long at least
-WEIGHTS = {"l": 2.0, "V": 1.0, "a": 1.25, "F": 1.0, "h": 1.5}
+WEIGHTS = {"l": 2.0, "V": 1.25, "a": 1.25, "F": 1.25, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
 # mm of A1 below which a plan becomes shorter only after the others
-KEPT = {"l": 200.0, "V": 100.0, "a": 100.0, "F": 80.0}
-SHORTEST = 60.0  # the same of the shortest of plans of forces that have one scale factor
+KEPT = {"l": 200.0, "V": 150.0, "a": 150.0, "F": 150.0, "h": 180.0}
+SHORTEST = 75.0  # the same of the shortest of plans of forces that have one scale factor
 HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 PROPORTION = 2.5  # times as fine as the velocity plan that a task fixes its lever may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
@@ -44,13 +44,14 @@ CRANK = 45.0  # mm, the least length of a crank drawn apart
 ZERO_LINE, ARC = 1.1, 0.45  # of the crank: how long the line is from which phi is measured, the radius of its arc
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
-MOTION, POLYGON = (25.0, 48.0), (27.0, 50.0)  # plans of motion, and of forces
-MECHANISM, GROUP, AROUND_LEVER = (40.0, 56.0), (56.0, 90.0), (62.0, 102.0)
+MOTION, POLYGON = (25.0, 48.0), (23.0, 48.0)  # plans of motion, and of forces
+MECHANISM, GROUP = (40.0, 56.0), (56.0, 90.0)
+AROUND_LEVER = (41.0, 70.0), (41.0, 105.0)  # of few moments, and of more
 GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
 HEADING, WIDER, WIDEST = (72.0, 42.0), (84.0, 42.0), (140.0, 42.0)  # of plans of motion, of forces, of the lever
-# a slider, the driver; of insets, for each force that would be a point
-APART, CRANKS, INSET = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (55.0, 70.0)
+# a slider, the driver; of insets, for each force that would be a point, of so many at most
+APART, CRANKS, INSET, TOGETHER = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (55.0, 70.0), 8
 RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing stands on the mechanism
 SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
 ON_AXIS = 0.3  # tangent of the angle at which a pivot is seen from a slider that runs on its axis to there
@@ -86,7 +87,7 @@ def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
 def extents_of(solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str]) -> Extents:
     """Return what the figures of a linkage take up, what its texts do, and the ladders of its scale factors."""
     figures = tuple(_figures(solved, plans)) if POSITION in solved.scale_of_plan else ()  # a structure has no extent
-    simple = len(solved.structure.groups) == 1 and _moments(solved) <= FEW
+    simple = len(solved.structure.groups) == 1 and len(_on_lever(solved)) <= FEW
     return Extents(figures, _texts(solved, plans), _ladders(solved, choosers, plans), 1.0 if simple else CROWDED)
 
 
@@ -137,7 +138,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
             size,
             weight=WEIGHTS[kind],
             share=LARGER[kind],
-            kept=HUNG * _moments(solved) if symbol == ARMS else KEPT.get(kind, 0.0),
+            kept=max(KEPT.get(kind, 0.0), HUNG * len(_on_lever(solved)) if symbol == ARMS else 0.0),
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             # of what the task or the user has fixed several pages are better than a coarser one
             fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),
@@ -155,9 +156,9 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
     return ladders
 
 
-def _moments(solved: SolvedLinkage) -> int:
-    """Count the moments on Zhukovsky's lever."""
-    return sum(step.verb == "moment" and role(step.operands[2]).plan == LEVER for step in solved.program)
+def _on_lever(solved: SolvedLinkage) -> list[Step]:
+    """Return the moments on Zhukovsky's lever."""
+    return [step for step in solved.program.which(("moment",)) if role(step.operands[2]).plan == LEVER]
 
 
 def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
@@ -188,8 +189,8 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
         driver = [*solved.mechanism.link(solved.structure.driver).points]
         yield Extent("mu_l", _around([solved.point(point) for point in driver]), *CRANKS)
     if "lever" in plans:
-        high, wide = _around(_images(solved))
-        yield Extent(ARMS, (wide, high), AROUND_LEVER, WIDEST)
+        around = AROUND_LEVER[len(_on_lever(solved)) > FEW]
+        yield Extent(ARMS, _around([*_images(solved), *_feet(solved)]), around, WIDEST)
 
 
 def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
@@ -197,10 +198,12 @@ def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
     forces = role(plan).kind == FORCES
     around, least = (POLYGON, WIDER) if forces else (MOTION, HEADING)
     yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), around, least)
-    sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
+    shown = {name for name in solved.quantities if solved.shown_on.get(name) == plan}
+    hung = {step.operands[1] for step in solved.program.on(plan) if step.verb == "chain"}  # those of another plan, too
+    sizes = [solved.size(name) for name in shown | hung]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
     if forces and points > 1:
-        yield Extent("", (0.0, 0.0), (points * INSET[0], INSET[1]))
+        yield Extent("", (0.0, 0.0), (min(points, TOGETHER) * INSET[0], INSET[1]))
 
 
 def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> float:
@@ -278,9 +281,20 @@ def marks_on(solved: SolvedLinkage, plan: str) -> list[complex]:
 
 
 def _images(solved: SolvedLinkage) -> list[complex]:
-    """Return the ends of the velocity plan of all lettered points, and its pole: the corners of the lever."""
+    """Return the corners of the lever: the ends of the velocity plan of all lettered points, and its pole, turned."""
     points = (f"velocity.{point}" for link in solved.mechanism.links for point in link.points)
-    return [*marks_on(solved, "velocity"), *(solved.point(point) for point in points if point in solved.values)]
+    ends = [*marks_on(solved, "velocity"), *(solved.point(point) for point in points if point in solved.values)]
+    return [end * 1j for end in ends]
+
+
+def _feet(solved: SolvedLinkage) -> Iterator[complex]:
+    """Go through the feet of arms on the lever; of many the arm of a couple is the line between its forces."""
+    steps = _on_lever(solved)
+    drawn = (step for step in steps if len(steps) <= FEW or role(step.operands[0]).part != COUPLE)
+    for force, mark, pole in (step.operands[:3] for step in drawn):
+        along, at, about = map(solved.point, (force, mark, pole))
+        if along:
+            yield at + along * ((about - at) / along).real
 
 
 def _around(places: Sequence[complex]) -> Size:

@@ -19,6 +19,7 @@ from fontTools.ttLib import TTFont
 from pypdfium2 import PdfDocument
 
 import kulman
+from kulman.drawing.linkages.ladders import extents_of, ways_of
 from kulman.drawing.page import Page, extent
 from kulman.drawing.shapes import Group, Text
 from kulman.drawing.words import Words
@@ -27,7 +28,7 @@ from kulman.plans.hands.shaky import preset
 from kulman.plans.linkages.solved import conditions_of, worst_condition
 from kulman.plans.quantities import plans_of
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, some, vectors
+from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, solve_case, some, vectors
 from kulman.tests.support.chains import chain
 from kulman.tests.support.commands import Run
 from kulman.tests.support.printed_numbers import decimal
@@ -294,6 +295,50 @@ def test_figures_are_numbered_in_order_and_headings_have_common_baselines(task: 
     assert numbers == [str(number + 1) for number in range(len(numbers))]
     assert len(numbers) > 3
     assert len(above) == 1
+
+
+def test_plans_are_as_large_as_the_paper_allows() -> None:
+    longest: dict[str, list[float]] = {"V": [], "a": [], "F": []}
+    for task in (task for task in bundled() if task.startswith("scheme")):
+        for variant in [*load_task(task).variants][:4]:
+            solved, plans = kulman.solve(task, variant), dict[str, list[float]]()
+            for q in solved.quantities.values():
+                if q.kind == "vector" and q.scale:
+                    plans.setdefault(q.scale[3:4], []).append(q.mm or 0.0)
+            for kind, lengths in plans.items():
+                longest[kind].append(max(lengths))
+
+    every = sorted(length for lengths in longest.values() for length in lengths)
+    assert {kind: len(of) for kind, of in longest.items()} == dict.fromkeys(longest, 80)
+    assert every[0] > 80.0
+    assert every[len(every) // 7] > 150.0  # six of seven plans of velocities, of accelerations, the largest of forces
+    assert every[-1] < 301.0
+
+
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some(
+        [
+            ("scheme-12-shaking-conveyor", "2"),  # arms far beyond the velocity plan
+            ("scheme-20-press-automaton", "0"),  # twelve small forces in one detail
+            ("scheme-09-shaper", "1"),  # small forces that another plan shows
+            ("scheme-16-hay-baler", "0"),
+        ],
+        0,
+        1,
+    ),
+)
+def test_lever_and_force_plans_take_about_what_scale_factors_were_chosen_for(task: str, variant: str) -> None:
+    drawn = {view.name: view.size for view in kulman.sheet(task, variant).views}
+    case = solve_case(task, variant)
+    extents = extents_of(case.solved, case.choosers, case.plans)
+    _, rungs, _ = next(ways_of(extents, None))
+
+    (lever,) = [e.on_paper(extents.mu(e.symbol, rungs), 1.0) for e in extents.figures if e.symbol == "mu_h"]
+    plans = [e.on_paper(extents.mu(e.symbol, rungs), 1.0) for e in extents.figures if e.symbol[:4] in ("", "mu_F")]
+    area = sum(wide * high for name, (wide, high) in drawn.items() if name.startswith("forces"))
+    assert [a / b for a, b in zip(lever, drawn["lever"], strict=True)] == pytest.approx([1.0, 1.0], abs=0.15)
+    assert sum(wide * high for wide, high in plans) / area == pytest.approx(1.0, abs=0.2)
 
 
 def test_force_plans_of_like_forces_have_one_scale_factor() -> None:
