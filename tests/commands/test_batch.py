@@ -473,7 +473,8 @@ def test_batch_and_check_give_a_student_whose_task_the_roster_names_the_same_var
 
 
 def test_of_several_tasks_a_book_or_a_variant_of_two_students_of_one_is_told(tmp_path: Path) -> None:
-    rows = (f"A;71;{SCHEMES[0]}", f"A;71;{SCHEMES[1]}", f"B;52;{SCHEMES[1]}", f"C;62;{SCHEMES[1]}", f"D;71;{SCHEMES[1]}")
+    works = ("A", 71, 0), ("A", 71, 1), ("B", 52, 1), ("C", 62, 1), ("D", 71, 1)
+    rows = [f"{who};{book};{SCHEMES[scheme]}" for who, book, scheme in works]
     file = roster(tmp_path, *rows, head="ПІБ;залікова книжка;Завдання")
 
     done = batch(SCHEMES[:2], file, tmp_path / "out", kinds=["svg"], only="structure", jobs=1, lang="en")
