@@ -499,6 +499,12 @@ def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, run: Run) 
         assert any("no direction" in note for note in found["notes"])
 
 
+def test_numbers_of_a_rubric_may_have_a_decimal_comma_in_quotes(tmp_path: Path) -> None:
+    of = [read_rubric(rubric(tmp_path, f"[weights]\nV_B = {text}\n"), "normal", ASKED) for text in ("3.5", '"3,5"')]
+
+    assert of[0] == of[1]
+
+
 def test_a_rubric_sets_tolerances_and_limits_single_quantities(tmp_path: Path, run: Run) -> None:
     for name, value, text, verdicts in (
         ("V_B", 2.80, "[tolerance]\nmm = 0.1\npercent = 0.1\ndegrees = 0.05\n", ["right", "wrong"]),
@@ -519,7 +525,10 @@ def test_a_rubric_sets_tolerances_and_limits_single_quantities(tmp_path: Path, r
         ("[tolerance]\nmm = true", "tolerance.mm"),
         ("weights = 3", "weights"),
         ('directions = "maybe"', "directions"),
-        ("= 3", "not a rubric in TOML"),
+        ("= 3", "rubric.toml:1:1: not valid TOML"),
+        ("[weights]\nV_B = 3,5\n", "rubric.toml:2:8: not valid TOML"),
+        ('[weights]\nV_B = "3,5 mm"\n', "weights.V_B: '3,5 mm'"),
+        ("\0", "not a rubric in TOML"),
     ],
 )
 def test_a_wrong_rubric_is_refused_with_its_key(tmp_path: Path, text: str, what: str) -> None:

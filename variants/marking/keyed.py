@@ -23,11 +23,12 @@ from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import all_known, latin, unknown
-from ...scales.numbers import SHOWN, quote
+from ...scales.numbers import SHOWN, quote, split_number
 from ...scales.scale import Display
 from ...scales.units import USUAL
 from ..case import Case, Request, Settings, kind_of
 from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
+from ..reader import syntax_fault
 from ..sheets import sheet_id
 from ..solution import Solution, solution_of
 from .cells import Asked, value
@@ -161,7 +162,7 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directi
 
 def _read(file: str | Path, usual: Tolerance, asked: Asked) -> Rubric:
     """Return what a rubric's file says; what it leaves out of the tolerance is as usual."""
-    path, shown, read = Path(file), quote(file, SHOWN), dict[str, Any]()
+    path, shown, read, text = Path(file), quote(file, SHOWN), dict[str, Any](), ""
     try:
         text = (path.read_bytes() if path.stat().st_size <= LARGEST else b"\0").decode("utf-8-sig")
         raw, checker = tomllib.loads(text), Checker(shown, Places(text))
@@ -169,8 +170,10 @@ def _read(file: str | Path, usual: Tolerance, asked: Asked) -> Rubric:
         raise InputError("file-missing", file=shown) from None
     except OSError:
         raise InputError("file-unreadable", file=shown) from None
-    except (ValueError, RecursionError):
-        raise InputError("rubric-toml", file=shown) from None
+    except (ValueError, RecursionError) as problem:
+        if not isinstance(problem, tomllib.TOMLDecodeError) or "\0" in text:
+            raise InputError("rubric-toml", file=shown) from None
+        raise syntax_fault(text, shown, str(problem)) from None
     with suppress(EnoughError):
         read = record(checker, (), raw, _fields(asked))
     if checker.faults:
@@ -192,9 +195,13 @@ def _fields(asked: Asked) -> dict[str, Field]:
         return tuple(raw)
 
     def number(raw: object) -> float:
-        if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not 0.0 <= raw < 1e9:
+        try:
+            found, unit = split_number(raw) if isinstance(raw, str) else (raw, "")  # a decimal comma needs quotes
+        except InputError:
+            found, unit = None, ""
+        if unit or isinstance(found, bool) or not isinstance(found, (int, float)) or not 0.0 <= found < 1e9:
             raise InputError("rubric-number", text=quote(raw))
-        return float(raw)
+        return float(found)
 
     def limit(raw: object, name: str) -> float:
         return value(str(raw), "", name, asked)
