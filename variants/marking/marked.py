@@ -374,7 +374,7 @@ def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) ->
     doubtful = {
         line.name
         for line in marking.lines
-        if line.verdict is Verdict.WRONG and line.about == "size" and line.answer is not None and line.answer.mm
+        if line.verdict.faulty and line.about == "size" and line.answer is not None and line.answer.mm
         for mu in [found.mus[read.vectors[line.name].plan]]
         if any(abs(line.answer.mm - abs(x) / mu) <= line.allowed / mu + READ for x in (line.right, line.follows))
     }
