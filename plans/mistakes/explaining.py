@@ -169,6 +169,7 @@ class _Search:
         self.book, self.marking, self.mus = book, marking, {**book.key.paper.mus, **_scales(marking)}
         self.said = _columns(marking)
         self.faulty = {line.name: line.off for line in marking.lines if line.verdict.faulty}
+        self.valued = {line.name for line in marking.answered if line.answer and known(line.answer.value)}
         self.as_said = Judged(marking.marker, marking.lines)
         self.first = next(i for i, line in enumerate(marking.lines) if line.name == marking.first_wrong)
         self.without = _mean(self.said.misses(book, book.right[None, :], book.allowed[None, :]))[0]
@@ -452,7 +453,8 @@ class _Search:
             return None  # of what follows less is explained than is spoilt
         spoilt = len({*left} - self.faulty.keys() - clearly)
         missed = sum(min(again[i].off, MOST) for i in clear)
-        rank = misses + LEFT * missed + SPOILT * spoilt + SECOND * (len(chain) - 1)
+        unshown = by_scale and self.valued.isdisjoint(explained)  # a scale factor shows in values
+        rank = misses + LEFT * missed + SPOILT * spoilt + SECOND * (len(chain) - 1) + ASIDE * unshown
         moved, order = ~(np.abs(last.row - self.book.right) <= self.book.allowed), (rank, 0)
         if len(chain) == 1:  # worse where a calculated number is not what the mistake makes of it
             aside = ASIDE if self._aside(again[self.first]) > EXACT else 0.0

@@ -20,7 +20,16 @@ from kulman.plans.mistakes.book import Book, Signature, book, broken, signatures
 from kulman.plans.mistakes.explaining import Candidate, _Explanation, explain
 from kulman.plans.mistakes.rules import BY_SCALE
 from kulman.tests.support.cases import some
-from kulman.tests.support.marking_cases import LINKAGES, answer, key, mistakes, moves, planted, right_answers
+from kulman.tests.support.marking_cases import (
+    LINKAGES,
+    answer,
+    in_millimetres,
+    key,
+    mistakes,
+    moves,
+    planted,
+    right_answers,
+)
 from kulman.tests.support.mechanisms import SEED
 
 WRONG_BY = 2.0  # tolerances by which a planted mistake moves at least one line
@@ -239,6 +248,26 @@ def test_a_value_alone_is_not_explained_by_what_would_spoil_others_as_well(task:
 
     assert [line.name for line in found.marking.lines if line.verdict.faulty] == [name]
     assert [[one.place for one in candidate.mistakes] for candidate in found.candidates] == []
+
+
+@pytest.mark.parametrize(
+    ("task", "place"),
+    some(
+        [
+            ("scheme-16-hay-baler", ("M72", "R_42", "left out")),
+            ("scheme-02-forging-press", ("M70", "R_12", "_t")),
+        ],
+        0,
+    ),
+)
+def test_no_scale_factor_is_named_first_where_no_value_is_written(task: str, place: tuple[str, str, str]) -> None:
+    found = next(one for one in mistakes(task).signatures if one.broken.place == place)
+    drawn = in_millimetres(key(task), planted(mistakes(task), found, SEED), everything=True)
+
+    first = explained(task, [replace(one, mu=key(task).paper.mus[key(task).questions[one.name].plan]) for one in drawn
+                             if one.mm is not None]).candidates[0]  # fmt: skip
+
+    assert not BY_SCALE.intersection(one.mistake for one in first.mistakes)
 
 
 def test_right_answers_have_no_explanation() -> None:
