@@ -31,6 +31,7 @@ from kulman.variants.photos.reading import on_page
 from kulman.variants.shelf import bundled
 
 LONG, WRONG = 5.0, 1.5  # mm: vectors that must be found; how far an end that is read wrongly lies from where it is
+CLEAR = 2.0  # tolerances by which a mistake moves a line at least, or it cannot be seen
 PLANTED = 0.4  # part of the students that make a mistake
 
 
@@ -77,27 +78,30 @@ def chosen_ways(sheet: Sheet, mistake: int) -> dict[str, Shape]:
     return {plan: next((way for way in some if way.explained(mistake)), some[0]) for plan, some in ways.items()}
 
 
-def drawn_ways(way: Shape) -> set[tuple[complex, complex]]:
-    """Return the vectors of a plan without their names, which are not read: where each begins and ends."""
-    places = np.round(way.places / way.longest, 4)
-    return {(complex(places[tail]), complex(places[tip])) for tail, tip in zip(way.tails, way.tips, strict=True)}
+def look_alike(sheet: Sheet, one: int, other: int) -> bool:
+    """Whether all plans look the same with two mistakes: each line of the one is a line of the other, as hands draw.
+
+    The vectors have no names on paper.
+    """
+    ways, others, tolerance = chosen_ways(sheet, one), chosen_ways(sheet, other), sheet.keyed.key.tolerance
+    for plan in sheet.plans:
+        ends = [np.stack((w.places[w.tails], w.places[w.tips])) / sheet.mus[plan] for w in (ways[plan], others[plan])]
+        apart = np.abs(ends[0][:, :, None] - ends[1][:, None, :]).max(axis=0)
+        for way, nearest in ((ends[0], apart.min(axis=1)), (ends[1], apart.min(axis=0))):
+            if (nearest > CLEAR * np.maximum(tolerance.mm, tolerance.part * np.abs(way[1] - way[0]))).any():
+                return False
+    return True
 
 
 def visible(sheet: Sheet, mistake: int) -> bool:
-    """Whether a mistake changes what is drawn of some plan, and leaves all on their pages."""
-    ways = chosen_ways(sheet, mistake)
-    changed = False
-    for plan, way in ways.items():
+    """Whether a mistake changes clearly what is drawn of some plan, and leaves all on their pages."""
+    for plan, way in chosen_ways(sheet, mistake).items():
         page, pole = sheet.poles[plan]
         ends = pole + way.places / sheet.mus[plan]
         size = sheet.pages[page].width, sheet.pages[page].height
         if not ((ends.real > 22) & (ends.real < size[0] - 10) & (ends.imag > 32) & (ends.imag < size[1] - 10)).all():
             return False
-        changed |= not way.right and (
-            way.longest != sheet.ways(plan, False)[0].longest
-            or drawn_ways(way) != drawn_ways(sheet.ways(plan, False)[0])
-        )
-    return changed
+    return not look_alike(sheet, mistake, RIGHT)
 
 
 def mistakes_of(sheet: Sheet) -> list[int]:
@@ -137,11 +141,14 @@ def student(sheet: Sheet, quality: str, random: Random, mistake: int, folder: Pa
 
 
 def is_named(sheet: Sheet, mistake: int, marked: Marked | None) -> bool:
-    """Whether a mistake, or one that answers cannot tell from it, is named first."""
+    """Whether a mistake is named first, or one that answers cannot tell from it, or that is drawn as it is."""
     if not marked or not marked.candidates:
         return False
-    first = marked.candidates[0]
-    return sheet.keyed.book.signatures[mistake].broken.mistake in {one.mistake for one in first.mistakes} | first.ids
+    first, signatures = marked.candidates[0], sheet.keyed.book.signatures
+    if signatures[mistake].broken.mistake in {one.mistake for one in first.mistakes} | first.ids:
+        return True
+    places = {one.place for one in first.mistakes} if len(first.mistakes) == 1 else ()
+    return any(one.broken.place in places and look_alike(sheet, mistake, n) for n, one in enumerate(signatures))
 
 
 def compared(figures: Figures, sheet: Sheet, truth: dict[str, Truth], marked: Marked | None, mistake: int) -> None:
@@ -194,7 +201,9 @@ def measured(tasks: list[str], count: int, seed: int = 1) -> Iterator[tuple[str,
             task, quality = tasks[number % len(tasks)], QUALITIES[(number + turn) % len(QUALITIES)]
             sheet, mistake = sheet_for(task), RIGHT
             if random.random() < PLANTED and (some := mistakes_of(sheet)):
-                mistake = int(random.choice(some))
+                kinds = [sheet.keyed.book.signatures[one].broken.mistake for one in some]
+                kind = random.choice(sorted({*kinds}))
+                mistake = int(random.choice([one for one, own in zip(some, kinds, strict=True) if own == kind]))
             for file in Path(folder).iterdir():
                 file.unlink()
             yield task, quality, student(sheet, quality, random, mistake, Path(folder), f"student{number}")
