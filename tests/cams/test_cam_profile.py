@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 
@@ -12,7 +13,7 @@ from shapely import Point, Polygon
 from shapely.affinity import rotate
 
 from kulman.plans.cams.cam import LAWS
-from kulman.plans.cams.envelopes import Undercut, backward
+from kulman.plans.cams.envelopes import Undercut, _chords, backward
 from kulman.plans.cams.followers import Limits, PlateProfile, RollerProfile, Sizes, Straight, turned_back
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
@@ -289,6 +290,25 @@ def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
         profile = RollerProfile(Straight(motion, sense), sizes, sizes.r_0 * random.uniform(0.4, 0.97))
         if profile.undercuts:
             left_by_the_cutter(profile)
+
+
+@dataclass
+class Branches:
+    """Two arcs that cross where one of them is at `a` and the other one at `b`, at a small angle."""
+
+    a: float
+    b: float
+
+    def at(self, t: float, side: int) -> tuple[complex, complex]:
+        off = t - (self.a if side < 0 else self.b)
+        return 3.0 + 2.0j + off + side * 0.05j * off + 0.02j * off * off, 0j
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.31, 4.77), (0.83, 4.12), (0.05, 4.5)])
+def test_branches_that_cross_at_a_small_angle_are_begun_with_near_their_crossing(a: float, b: float) -> None:
+    ((near_a, near_b),) = _chords(Branches(a, b), (0.0, 1.0), (4.0, 5.0))
+
+    assert (near_a, near_b) == (pytest.approx(a, abs=0.05), pytest.approx(b, abs=0.05))
 
 
 def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
