@@ -348,19 +348,20 @@ def test_data_of_a_form_that_cannot_be_read_are_told_and_not_passed_over(tmp_pat
     assert "a.csv, l_OA = багато: l_OA: 'багато' is not a number" in err
 
 
-def test_a_form_of_a_class_carries_the_data_that_students_have_alone(tmp_path: Path) -> None:
+@pytest.mark.parametrize("shared", [{}, {"l_OA": "55 mm"}])
+def test_a_form_of_a_class_carries_the_data_that_students_have(tmp_path: Path, shared: dict[str, str]) -> None:
     roster = write(tmp_path, [["student", "variant", "phi [deg]"], ["А", "3", "50"], ["Б", "3", ""]], name="roster")
-    form = check(TASK, roster=roster, lang="uk").write_form(tmp_path / "form.csv")
+    form = check(TASK, roster=roster, set=shared, lang="uk").write_form(tmp_path / "form.csv")
     rows = [list(row) for row in read_grid(form).rows]
     rows = [row + [""] * (len(rows[0]) - len(row)) for row in rows]
     for row, data in zip(rows[1:], ({"phi": "50 deg"}, {}), strict=True):
-        row[rows[0].index("V_B, м/с")] = f"{abs(solve(TASK, '3', set=data)['V_B'].value):.4g}"
+        row[rows[0].index("V_B, м/с")] = f"{abs(solve(TASK, '3', set=shared | data)['V_B'].value):.4g}"
     file, asked = str(write(tmp_path, rows)), check(TASK, lang="en")
 
     found = [asked.mark(one).marked for one in asked.read(file)]
 
     assert [line.verdict for one in found for line in one.marking.answered] == ["right", "right"]
-    assert [any(note.key == "marked-data" for note in one.notes) for one in found] == [True, False]
+    assert [any(note.key == "marked-data" for note in one.notes) for one in found] == [True, bool(shared)]
 
 
 @pytest.mark.parametrize(

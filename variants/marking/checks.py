@@ -78,11 +78,13 @@ class Check(Terms):
         task, language = self.request.task, self.request.language
         if self.roster is not None:
             key = Desk(self).keyed(fullest(self.request), {})
-            own = [*({DATA} if any(entry.settings for entry in self.roster.entries) else ())]
+            shared = data_text(key.solution.case, self.request.settings or {})
+            own = [DATA] if shared or any(entry.settings for entry in self.roster.entries) else []
             who = ("student", "group", "book", "number", "variant", "sheet", *own)
             rows = [class_header(key, who, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
-                data = "; ".join(f"{name} = {value}" for name, value in entry.settings.items())
+                alone = (f"{name} = {value}" for name, value in entry.settings.items())
+                data = "; ".join(filter(None, (shared, *alone)))
                 told = (*(getattr(entry.who, name) for name in who[:4]), self._variant_of(entry), "")
                 rows.append((*told, *[data] * len(own)))
             bold, frozen = [0], 1
