@@ -153,15 +153,14 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
         agree = (same >= FEWEST) & (most | all_near)
         for k in np.flatnonzero(agree | ((wrong & (apart < ROUNDING)).sum(axis=1) >= FEWEST_WRONG)):
             other, said = int(i + 1 + k), np.flatnonzero(apart[k] < ROUNDING)
+            one, two = students[i], students[other]
             rest = abs(right - right[i]) <= CHANGED  # of others under the same key
             rest[[i, other]] = False
-            same_way = (rest & (abs(mm - mm[i]) <= WIDEST)).sum(axis=0)
-            common = (same_way + np.maximum(alike[i], alike[other])) / (rest.sum(axis=0) + 1.0)
-            common = np.where(wrong[k], np.maximum(common, ALIKE), 1.0)
-            both_have = [(j, name) for j, name in enumerate(names) if math.isfinite(apart[k, j])]
-            chances = {name: _chance(students[i][name], students[other][name], common[j]) for j, name in both_have}
+            as_wrong = (rest & (abs(mm - mm[i]) <= WIDEST)).sum(axis=0) + np.maximum(alike[i], alike[other])
+            common = np.where(wrong[k], np.maximum(as_wrong / (rest.sum(axis=0) + 1.0), ALIKE), 1.0)
+            chances = {n: _chance(one[n], two[n], common[j]) for j, n in enumerate(names) if n in one and n in two}
             by_wrong = sum(math.log(chances[names[j]]) for j in said if wrong[k, j])
-            if by_wrong < least or (agree[k] and _likelihood(students[i], students[other], chances) < least):
+            if by_wrong < least or (agree[k] and _likelihood(one, two, chances) < least):
                 yield _Pair(i, other, tuple(names[j] for j in said), int(near[k]), int(both[k]))
 
 
