@@ -97,8 +97,10 @@ class Roster:
         Of several the one of the same group, then of the same variant, is meant. A name that nobody has so may be one
         with initials, without a patronymic, or with the surname last.
         """
-        ways = (self._by_key.get((key, said), []) for key in KEYS if (said := _folded(getattr(who, key))))
-        for found in (*ways, [entry for entry in self.entries if _same_person(who.student, entry.who.student)]):
+        for key in (*KEYS, ""):
+            said = _folded(getattr(who, key)) if key else ""
+            found = self._by_key.get((key, said), []) if said else []
+            found = found if key else [one for one in self.entries if _same_person(who.student, one.who.student)]
             grouped = [entry for entry in found if _folded(entry.who.group) == _folded(who.group)] or found
             for several in (found, grouped, [entry for entry in grouped if variant and entry.variant == variant]):
                 if len(several) == 1:
