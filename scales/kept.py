@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import gc
+import os
+import pickle
+import zlib
 from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import Generic, TypeVar
 
 Made = TypeVar("Made")
@@ -57,3 +61,23 @@ class Kept(Generic[Made]):
                 self._made.pop(next(iter(self._made)), None)
             self._made[key] = made
         return made
+
+
+def kept_in(folder: Path, name: str, most: int, make: Callable[[], Made]) -> Made:
+    """Return what is kept in a folder of our own under a name, for other processes, too, or what `make` makes.
+
+    That is kept as long as all that is there takes no more than `most` bytes, and the disk has room.
+    """
+    file = folder / name
+    with suppress(OSError):
+        found: Made = pickle.loads(zlib.decompress(file.read_bytes()))
+        return found
+    made = make()
+    data = zlib.compress(pickle.dumps(made), 1)
+    with suppress(OSError):
+        folder.mkdir(exist_ok=True)
+        if sum(one.stat().st_size for one in folder.iterdir()) + len(data) <= most:
+            part = folder / f"{name}.{os.getpid()}"
+            part.write_bytes(data)
+            part.replace(file)
+    return made

@@ -13,9 +13,11 @@ from starlette.testclient import TestClient
 import kulman
 from kulman.tests.photos.stacks import TASK, Stack
 from kulman.tests.support.serving import asked
-from kulman.variants.photos.asking import OUT, Asking, EndAsk, PageAsk
+from kulman.variants.photos import reading
+from kulman.variants.photos.asking import OUT, Asking, EndAsk, PageAsk, Told
 from kulman.variants.serving.asking import PASSED, Sitting, place_of
-from kulman.variants.serving.making import Asked, Handed, Upload
+from kulman.variants.serving.jobs import KEPT
+from kulman.variants.serving.making import Asked, Handed, Upload, marked_class
 from kulman.variants.serving.safety import doors_for
 
 CHECK = f"/task/{TASK}/check?v=3"
@@ -94,6 +96,35 @@ def test_a_student_hands_in_photographs_and_answers_what_is_not_sure(
     marked = followed(client, client.post(questions))
 
     assert "a<sup>n</sup><sub>BA</sub>" in marked.partition("<table>")[2]
+
+
+def test_photographs_of_a_class_are_read_once_to_ask_and_to_mark(
+    stack: Stack, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read, photographed = list[int](), reading.photographed
+
+    def counted(photos: Any, *more: Any) -> Any:
+        read.append(len(photos))
+        return photographed(photos, *more)
+
+    monkeypatch.setattr(reading, "photographed", counted)
+    files = tuple(Upload(file.name, file.read_bytes()) for file in stack.pictures[:1])
+    handed = Handed(Asked(TASK), files, {}, Upload("roster.csv", stack.roster.read_bytes()))
+    (tmp_path / KEPT).mkdir()
+
+    def done(told: Told | None, asked: str, archive: str) -> set[str]:
+        (folder := tmp_path / archive).mkdir()
+        monkeypatch.chdir(folder)
+        asking = marked_class(lambda *of: None, handed, told, asked, f"{archive}.zip", 1).asking
+        assert (asking is None) is (told is not None)
+        return {file.name for file in (tmp_path / KEPT).iterdir()}
+
+    assert done(None, "", "one") == {"one"}
+    assert done(Told(), "one", "two") == {"two", "two.zip"}
+    assert done(Told(), "two", "three") == {"two.zip", "three", "three.zip"}
+    assert read == [1]
+    assert done(Told(), "", "four") == {"two.zip", "three", "three.zip", "four.zip"}  # of which nothing was asked
+    assert read == [1, 1]
 
 
 @pytest.mark.parametrize("text", ["", "1", "1,2,3", "nan,1", "inf,1", "-1,1", "11,1", "a,b"])

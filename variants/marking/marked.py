@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
@@ -14,10 +15,11 @@ from ...plans.marking.key import Key
 from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError, Spoken
-from ...scales.kept import Kept
+from ...scales.kept import Kept, kept_in
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ..case import Request, Settings, plans_wanted
+from ..crew import digest_of
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, sheet_id, task_of_id, variant_of_id
 from ..shelf import bundled
@@ -40,11 +42,15 @@ STRANGE = 0.25  # part of the answers that a task does not ask for, which with a
 TOLD_APART = 2  # mistakes that are told together
 READ = 1.0  # mm that reading a photograph may miss of a segment
 KEPT, BLANKS = 32, 4  # answer keys; handouts that were photographed
+READ_KEPT = 400_000_000  # bytes of a class's photographs that have been read
 
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """How answers to a task are marked; `own` makes reports for students, without right numbers."""
+    """How answers to a task are marked; `own` makes reports for students, without right numbers.
+
+    What has been read of photographs is kept in the folder `photographs`, if there is one, for who marks after asking.
+    """
 
     request: Request
     rubric: Rubric
@@ -52,6 +58,7 @@ class Terms:
     roster: Roster | None = None
     digits: int | str = 1
     own: bool = False
+    photographs: Path | None = None
 
     def entry_of(self, answers: Answers) -> Entry | None:
         """Return the place of a student in the roster, if there is one."""
@@ -259,9 +266,16 @@ class Desk:
 
         if (answers.photos, key) not in self._sheets:
             self._sheets = Kept(1)  # those of another student are large, and go before these come
-        found: tuple[Sheets, Seen] = self._sheets.get(
-            (answers.photos, key), lambda: photographed(answers.photos, self.terms.request, key, self._blanks)
-        )
+
+        def read() -> tuple[Sheets, Seen]:
+            return photographed(answers.photos, self.terms.request, key, self._blanks)
+
+        def again() -> tuple[Sheets, Seen]:
+            about = (key.sheet, *key.key.questions, *(digest_of(photo.picture) for photo in answers.photos))
+            folder = self.terms.photographs
+            return read() if folder is None else kept_in(folder, digest_of(repr(about).encode()), READ_KEPT, read)
+
+        found: tuple[Sheets, Seen] = self._sheets.get((answers.photos, key), again)
         return found
 
     def of(self, answers: Answers) -> tuple[Entry | None, Keyed, list[KulmanError]]:

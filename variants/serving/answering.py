@@ -93,7 +93,8 @@ class Questions:
     def begun(self, door: Door, sitting: Sitting, told: bool = True) -> Response:
         """Begin to mark a class, with what has been told, or to look for what is not sure; lead to how far it is."""
         said = sitting.told if told else None
-        job = self.desk.begin(door.said["marks.title"], making.marked_class, door.language, sitting.handed, said)
+        title, asked = door.said["marks.title"], sitting.name
+        job = self.desk.begin(title, making.marked_class, door.language, sitting.handed, said, asked)
         self.desk.sittings.keep(job.name, replace(sitting, name=job.name))
         return RedirectResponse(door.link(f"/job/{job.name}"), 303)
 

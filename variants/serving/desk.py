@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import secrets
+import shutil
 import sys
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -66,6 +67,7 @@ class Desk:
 
     def _forget(self, job: Job) -> None:
         (self.home.path / KEPT / f"{job.name}.zip").unlink(missing_ok=True)
+        shutil.rmtree(self.home.path / KEPT / job.name, ignore_errors=True)  # what was read of photographs
 
     def close(self) -> None:
         """End the processes and remove what they have written."""

@@ -5,6 +5,7 @@ They work in an empty folder, where what is uploaded is written under names of o
 
 from __future__ import annotations
 
+import shutil
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -473,14 +474,20 @@ def _asked_of_class(read: _Read, advance: Advance, jobs: int) -> Asking:
     return Asking(tuple(read.asks), tuple(ask for place in sorted(ends) for ask in ends[place]), pictures)
 
 
-def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: str, jobs: int) -> _Done:
+def marked_class(advance: Advance, handed: Handed, told: Told | None, asked: str, archive: str, jobs: int) -> _Done:
     """Mark what a class has handed in as `check` does: reports, the page about the class, tables of marks.
 
-    Where nobody has been asked yet, nothing `told`, and something is not sure, that is what comes of it.
+    Where nobody has been asked yet, nothing `told`, and something is not sure, that is what comes of it. What was read
+    of photographs by the job that has `asked` is kept for this one.
     """
-    language, out = handed.asked.language, Path("marks")
+    language, out, kept = handed.asked.language, Path("marks"), Path("..").resolve() / KEEP
+    photographs = kept / Path(archive).stem
+    if asked:
+        with suppress(OSError):  # forgotten meanwhile
+            (kept / asked).rename(photographs)
     read = handed.read(told or Told())
-    ready, found = read.ready, read.found
+    ready, found = replace(read.ready, photographs=photographs), read.found
+    read = replace(read, ready=ready)
     asking = Asking(tuple(read.asks)) if told is not None else _asked_of_class(read, advance, jobs)
     if asking.pages or asking.ends:
         return _Done("", (), asking=asking)
@@ -493,7 +500,9 @@ def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: s
     if returned:
         (out / name).write_bytes(stacked(returned))
     files = sorted(out.glob("[!.]*"))
-    _zipped(files, Path("..") / KEEP / archive, out)
+    _zipped(files, kept / archive, out)
+    if not asked:
+        shutil.rmtree(photographs, ignore_errors=True)  # nothing was asked of them
     return _Done(archive, tuple(lines), page.read_bytes())
 
 
