@@ -28,11 +28,11 @@ def moving(scene: HoistScene) -> Moving:
     points, shapes = _beams(scene, course)
     points |= {"A0": 0j, "A2": 1j * rope, "up": 1j * tall}
     points |= {"below": complex(0.9 * tall), "above": complex(0.3 * tall, tall)}  # where the forces on the load stand
-    load, top = ["A0", "load.s", TIMES, 0.0], ["up", "load.s", TIMES, 0.0]
+    load, top, drum = ([at, way, TIMES, 0.0] for at, way in (("A0", "load.s"), ("up", "load.s"), ("A2", "drum.w_2")))
     shapes += [
-        {"k": "bar", "a": top, "b": ["A2", "drum.w_2", TIMES, 0.0]},
+        {"k": "bar", "a": top, "b": drum},
         {"k": "box", "at": load, "wide": 1.3 * tall, "high": tall},
-        {"k": "disk", "at": ["A2", "drum.w_2", TIMES, 0.0], "r": 0.25 * tall},
+        {"k": "disk", "at": drum, "r": 0.25 * tall},
         _force("F_12", html(words.symbol("F_12")), "above"),
         _force("F_01", html(words.symbol("F_01")), "below"),
     ]

@@ -13,7 +13,7 @@ import pytest
 from kulman import sheet, solve
 from kulman.drawing.formats import FORMATS
 from kulman.plans.hands.shaky import PRESETS, Hand, Paper, draw
-from kulman.plans.hands.spread import DRAWINGS, SEED
+from kulman.plans.hands.spread import DRAWINGS, SEED, Expectation, _Spread
 from kulman.scales.choices import HANDS, SIZES
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.commands import Run
@@ -216,3 +216,13 @@ def test_every_task_is_drawn_by_hand_and_few_hands_fail(task: str) -> None:
             assert name.startswith("delta_") or item["tolerance"] > 0.0, name
             assert ("x" in found[name]) == (item["tolerance_deg"] is not None), name
     assert solution.drawn("uk")
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_what_is_nothing_beside_its_plan_has_no_per_cents_in_any_unit(unit: float) -> None:
+    def per_cents(exact: float) -> float | None:
+        spread = _Spread(0.0, exact=exact, low=0.9 * unit, high=1.1 * unit, size=3.0 * unit)
+        return Expectation(spread, None, None, None, None, 0.0, None, True).percent
+
+    assert per_cents(unit) == pytest.approx(10.0)
+    assert per_cents(1e-13 * unit) is None

@@ -237,6 +237,13 @@ def test_every_point_with_a_letter_is_drawn_and_every_link_between_joints_has_it
     assert numbered == {number for number, points in ends.items() if len(points) > 1}
 
 
+def test_what_hangs_on_the_rope_of_a_hoist_moves_along_it() -> None:
+    shapes = data_of(page_of("karpenko-hoist"))["views"][0]["shapes"]
+    ends = [shape[key] for shape in shapes for key in ("a", "b", "at") if isinstance(shape.get(key), list)]
+
+    assert {(way, across) for _, way, _, across in ends} == {("load.s", 0.0), ("drum.w_2", 0.0)}
+
+
 def test_a_page_is_written_beside_the_sheet(tmp_path: Any, run: Run) -> None:
     files = [str(tmp_path / name) for name in ("moving.html", "sheet.svg")]
     status, *_ = run("sheet", "nau-slider-crank", "-o", files[0], "-o", files[1])
