@@ -7,11 +7,13 @@ import zipfile
 from collections.abc import Mapping
 from functools import cache
 from io import BytesIO
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from lxml import etree
 
 import kulman
@@ -161,6 +163,20 @@ def test_poles_are_points_to_drag_and_leave_all_values_as_they_are() -> None:
 
     assert len(poles) == len(written.program.plans)
     compare(written, moved, solved_with("scheme-09-shaper"))
+
+
+@pytest.mark.parametrize("task", [*FEW, *KINDS])
+def test_plans_stand_apart_and_together_as_on_a_drawing(task: str) -> None:
+    written, evaluator = construction(task)
+    found, places = evaluator.at({}), dict[str, list[complex]]()
+    for item in written.board.items:
+        if item.kind == "point" and item.name and not role(item.name).hidden:
+            places.setdefault(role(item.name).plan, []).append(found[item.label])
+
+    drawn = [shapely.MultiPoint([(p.real, p.imag) for p in points]).envelope for points in places.values()]
+    assert len(drawn) > 3
+    assert not [(one, other) for one, other in combinations(drawn, 2) if one.intersects(other)]
+    assert max(np.ptp(shapely.bounds(drawn).reshape(-1, 2, 2), axis=(0, 1))) < 4000.0  # mm
 
 
 @pytest.mark.parametrize("language", some(LANGUAGES, 2))
