@@ -276,6 +276,18 @@ def test_forces_moments_and_arms_that_are_zero_are_said_apart(task: str) -> None
     assert not zero or len(found) > 0
 
 
+@pytest.mark.parametrize("task", some(SCHEMES, *range(1, 99, 7)))
+def test_forces_that_are_calculated_keep_their_digits_though_their_segments_are_short(task: str) -> None:
+    scene = bundled(task)
+    forces = {name: q for name, q in scene.quantities.items() if name.startswith("F_i") and not scene.vanishes(name)}
+
+    printed = {name: printed_segment(scene, q)[-1] for name, q in forces.items()}
+
+    right = {name: pytest.approx(abs(forces[name].value or 0.0), rel=5e-3) for name, text in printed.items() if text}
+    assert {name: float(printed[name]) for name in right} == right
+    assert right
+
+
 @pytest.mark.parametrize("task", some(SLIDERS, 0, 3))
 def test_moments_about_the_pin_of_every_slider_are_summed(task: str) -> None:
     scene = bundled(task)
