@@ -431,3 +431,13 @@ def test_saddle_is_traced_as_two_curves() -> None:
     runs = traced(lambda places: np.asarray(places.real * places.imag - 1e-4), -1 - 1j, 1 + 1j, 11)
     assert len(runs) == 2
     assert all(np.max(np.abs(run.real * run.imag - 1e-4)) < 1e-14 for run in runs)
+
+
+@pytest.mark.parametrize("m", [1e-3, 1e-1])
+def test_curves_of_the_contour_are_as_far_in_modules_for_pairs_of_any_module(m: float) -> None:
+    places = np.array([0.2 + 0.85j, 0.4 + 0.1j, 1.1 + 0.9j])
+
+    usual, other = (plane_of(complete(madi(**of))).measures(places) for of in ({}, {"m": m}))
+
+    assert {*usual} == {*CURVES}
+    assert {name: pytest.approx(measure, abs=1e-9, nan_ok=True) for name, measure in usual.items()} == other
