@@ -131,6 +131,8 @@ def test_a_designation_is_composed_of_task_variant_and_page(
 ) -> None:
     pages = kulman.sheet(task, variant, lang=language, format=format).pages
     assert [text.markup for page in pages for text in written(page, "designation")] == designations
+    told = [text.markup for text in written(pages[0], "document_type", "student", "teacher", "date_value")]
+    assert told == [{"en": "Course work"}.get(language, "РГР")]
 
 
 def test_a_designation_that_is_said_stands_on_every_page() -> None:
