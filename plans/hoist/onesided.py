@@ -65,7 +65,7 @@ class Curve:
 
     def surely(self, room: float) -> float:
         """Return a time from which on it is above zero by more than `room`: its parabola runs away to that side."""
-        zeros = Curve(self.p_0 - self.swing - 2.0 * room, self.p_1, self.p_2)._zeros()[1]
+        zeros = Curve(self.p_0 - self.swing - 2.0 * room, self.p_1, self.p_2)._zeros()
         return zeros[0] if self.p_1 < 0.0 else max(zeros[-1], 0.0)
 
     def turnings(self, end: float, begin: float = 0.0) -> Iterator[float]:
@@ -108,13 +108,8 @@ class Curve:
 
         At the beginning it is above zero, or there and rising; `room` is by how much it may dip below for rounding.
         """
-        if self.w == 0.0:
-            square, zeros = self._zeros()
-            if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
-                return None
-            return min((t for t in zeros if 0.0 < t <= end and self.jet(t)[1] < 0.0), default=None)
         straight = Curve(self.p_0 - self.swing - room, self.p_1, self.p_2)
-        ends = [0.0, *sorted(t for t in straight._zeros()[1] if 0.0 < t < end), end]
+        ends = [0.0, *sorted(t for t in straight._zeros() if 0.0 < t < end), end]
         for low, high in pairwise(ends):
             if not straight.at(0.5 * (low + high)) < 0.0:
                 continue  # its swing does not reach zero there
@@ -126,13 +121,13 @@ class Curve:
                 begin, value = turning, other
         return None
 
-    def _zeros(self) -> tuple[float, list[float]]:
-        """Return the discriminant of its parabola, and where that is zero; where it turns if it nowhere is."""
-        half, square = 0.5 * self.p_1, 0.25 * self.p_1 * self.p_1 - self.p_0 * self.p_2
-        root = math.sqrt(max(square, 0.0))
+    def _zeros(self) -> list[float]:
+        """Return where its parabola is zero; where it turns if it nowhere is."""
+        half = 0.5 * self.p_1
+        root = math.sqrt(max(half * half - self.p_0 * self.p_2, 0.0))
         larger = -(half + math.copysign(root, half))
         found = [larger / self.p_2] if self.p_2 else []
-        return square, found + ([self.p_0 / larger] if larger else [])
+        return found + ([self.p_0 / larger] if larger else [])
 
 
 def zero_between(function: Callable[[Any], tuple[Any, Any]], low: Any, high: Any, close: float = CLOSE) -> Any:
