@@ -53,6 +53,7 @@ TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 MOST = 2  # texts and tables that may stand beside the statement of a task
 WRITTEN = 8.0  # mm of a row in which an answer is written by hand
 LEAF, COARSER = 2, 4  # pages of a leaf; scale factors that are tried for them
+ROUNDS = 2  # of changes that are tried of each plan for the sake of even pages
 MUCH = 2.5 + 1e-9  # times as coarse as for its plan alone: rather than more a blank has a page for each plan
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 
@@ -300,9 +301,11 @@ def _resized(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Dra
     )
     larger = [(symbol, -1) for symbol in own]
     tries = [*larger, *((symbol, 1) for symbol, _ in reversed(larger))]
-    turns = iter(tries)
-    while drawn.short and (turn := next(turns, None)):
-        symbol, step = turn
+    turns = iter(tries)  # anew after each that helps
+    for _ in range(ROUNDS * len(tries)):
+        symbol, step = next(turns, ("", 0))
+        if not drawn.short or not symbol:
+            break
         rungs = found[1] | {symbol: found[1][symbol] + step}
         if not 0 <= rungs[symbol] < len(ladders[symbol].values):
             continue
@@ -310,7 +313,7 @@ def _resized(fitting: _Fitting, sheet: Format, found: Found) -> tuple[Found, Dra
             other = _on_pages(fitting, sheet, rungs, last(found[2]) + 1)
             if other is not None and other[1] == rungs and last(other[2]) <= last(found[2]):
                 again = _composed(fitting, other, sheet)
-                if (len(again.sheets), again.short) < (len(drawn.sheets), drawn.short):
+                if again.short < drawn.short and len(again.sheets) <= len(drawn.sheets):
                     found, drawn, turns = other, again, iter(tries)
     return found, drawn
 
