@@ -139,36 +139,41 @@ def on_one_page(
 
 
 def in_any_order(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = ()
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), first: bool = True
 ) -> list[Placement] | None:
     """Place views of these sizes on the only page where no usual order has room; return None if none is found.
 
-    Views in the order of the work change places in pairs, those from wide to narrow move one at a time, as long as all
-    need less height then, and once there is room as long as fewer stand before what comes before them. Texts with which
-    the page begins stay first, and the figure after them; `begins` are as of `Pages`.
+    Texts and tables in the order of the work move one at a time between the figures, then views change places in pairs,
+    then those from wide to narrow move, as long as all need less height then, and once there is room as long as fewer
+    stand before what comes before them. Texts with which the page begins stay first, and the figure after them;
+    `begins` are as of `Pages`.
     """
     lead = [*range(min(len(_lead(begins)) + 1, len(sizes)))]
     rest = [*range(len(lead), len(sizes))]
 
     def high(order: Sequence[int]) -> int:
-        return _cuts([sizes[i] for i in order], sheet, norm, (), True)[0].high
+        return _cuts([sizes[i] for i in order], sheet, norm, (), first)[0].high
 
+    texts = [i for i in rest if begins and begins[i] < FIGURE]
     by_width, pairs = sorted(rest, key=lambda i: -sizes[i][0]), [*combinations(rest, 2)]
-    moves = [move for i, j in pairs for move in ((i, j), (j, i))]
-    for begun, change, every in ((rest, _exchanged, pairs), (by_width, _moved, moves)):
+    for begun, change, every in (
+        (rest, _moved, [(i, j) for j in rest for i in texts]),
+        (rest, _exchanged, pairs),
+        (by_width, _moved, [(i, j) for i in rest for j in rest]),
+    ):
         order = [*lead, *begun]
         least, idle = high(order), 0
         for i, j in islice(cycle(every), TRIES if least < NEARLY * STEPS else 0):
             other = change(order, i, j)
             back = _turned(other) < _turned(order)
-            now = high(other) if least > STEPS or back else least
+            now = high(other) if other != order and (least > STEPS or back) else least
             if now < least or (now <= STEPS and back):
                 order, least, idle = other, now, 0
             elif (idle := idle + 1) == len(every):
                 break
         if least <= STEPS:
             kinds = [begins[i] for i in order] if begins else ()
-            placed = on_a_page([sizes[i] for i in order], sheet, norm, kinds)
+            placed = on_a_page([sizes[i] for i in order], sheet, norm, kinds, first)
             return None if placed is None else [placed[order.index(i)] for i in range(len(sizes))]
     return None
 
@@ -188,8 +193,8 @@ def _exchanged(order: Sequence[int], i: int, j: int) -> list[int]:
 
 
 def _moved(order: Sequence[int], i: int, j: int) -> list[int]:
-    others = [*order[:i], *order[i + 1 :]]
-    return [*others[:j], order[i], *others[j:]]
+    others = [k for k in order if k != i]
+    return [*others[:j], i, *others[j:]]
 
 
 def arrange(
@@ -320,10 +325,11 @@ Span = tuple[int, int]  # the first of the rows or lines that stand on a page, a
 def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
     """Return the views of a page at places in reading order, as many from the first one on as can be.
 
-    The others come as on the only page: figures before tables, or high ones before low ones.
+    The others come as on the only page: figures before tables, or high ones before low ones; so that fewest figures
+    stand before one that they follow.
     """
     views, count = [view for view, _ in page], len(page)
-    begins = begins_of(views)
+    begins, best, least = begins_of(views), page, _turned_figures(page)
     for kept in range(count, 1, -max(1, count // KEPT)):
         rest = sorted(range(kept, count), key=lambda i: -views[i].size[1])
         figures = [i for i in range(kept, count) if begins[i] == FIGURE]
@@ -332,9 +338,25 @@ def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> li
         ):
             sizes, kinds = [views[i].size for i in order], [begins[i] for i in order]
             placed = on_a_page(sizes, sheet, norm, kinds, first)
-            if placed is not None:
-                return page if kept == count else [(views[i], place) for i, place in zip(order, placed, strict=True)]
-    return page
+            if placed is None:
+                continue
+            at = dict(zip(order, placed, strict=True))
+            other = [(view, at[i]) for i, view in enumerate(views)]
+            now = _turned_figures(other)
+            if now < least or (best is page and now == least and kept < count):
+                best, least = other, now
+            if not least:
+                return best
+    placed = in_any_order([view.size for view in views], sheet, norm, begins, first) if least else None
+    other = page if placed is None else [*zip(views, placed, strict=True)]
+    return other if _turned_figures(other) < least else best
+
+
+def _turned_figures(page: Sequence[Standing]) -> int:
+    """Return in how many pairs of figures the later one stands neither on the right of the other one nor below it."""
+    kinds = begins_of(view for view, _ in page)
+    boxes = [_box_of(standing) for standing, kind in zip(page, kinds, strict=True) if kind == FIGURE]
+    return sum(after[0] < before[2] and after[3] > before[1] for before, after in combinations(boxes, 2))
 
 
 def _area(box: Box) -> float:
@@ -745,6 +767,11 @@ def compose(
         parting.plain = False
         pages, short = parting.evened(pages)
         sheets = sheets[: len(pages)]
+        for k, page in enumerate(pages):
+            if _turned_figures(page):
+                read = _as_read(page, sheet, norm, k == 0)
+                if k == len(pages) - 1 or _lacks(read, sheet, norm, k == 0) <= _lacks(page, sheet, norm, k == 0):
+                    pages[k] = read
     parts, shown = Counter[str](), list[list[Standing]]()
     for page in pages:
         shown.append([])

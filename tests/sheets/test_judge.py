@@ -259,7 +259,8 @@ def test_figures_of_a_crowded_page_come_in_the_order_of_the_work() -> None:
     assert box["group_23"][3] < box["position"][1]
 
 
-# where letters are larger for the fill of the page, or the first of two pages was fuller than it must be
+# where letters are larger for the fill of the page, the first of two pages was fuller than it must be, or texts and
+# tables have room only between other figures than theirs
 @pytest.mark.parametrize(
     ("task", "variant"),
     some(
@@ -271,9 +272,15 @@ def test_figures_of_a_crowded_page_come_in_the_order_of_the_work() -> None:
             ("scheme-07-two-stage-compressor", "1"),
             ("scheme-11-slotter", "3"),
             ("scheme-17-sewing-machine", "5"),
+            ("scheme-01-compressor", "6"),
+            ("scheme-09-shaper", "3"),
+            ("scheme-12-shaking-conveyor", "6"),
+            ("scheme-16-hay-baler", "5"),
+            ("scheme-19-scotch-yoke", "6"),
         ],
         1,
         9,
+        11,
     ),
 )
 def test_figures_of_a_page_come_in_the_order_of_the_work(task: str, variant: str) -> None:
