@@ -576,7 +576,11 @@ def test_photographs_of_two_linkages_at_all_qualities() -> None:
 def pencil_of(ends: list[tuple[complex, complex]], arrows: list[tuple[complex, complex]]) -> Pencil:
     """A page of 120 x 60 mm with lines, and arrowheads at the tips of others."""
     dark = np.zeros((60 * PER_MM, 120 * PER_MM), np.uint8)
-    wings = [(b, b + 3.2 * np.exp(1j * turn) * (a - b) / abs(b - a)) for a, b in arrows for turn in (0.27, -0.27)]
+    wings = [
+        (b, b + min(3.2, abs(b - a) / 3) * np.exp(1j * turn) * (a - b) / abs(b - a))
+        for a, b in arrows
+        for turn in (0.27, -0.27)
+    ]
     for line in (*ends, *wings):
         at = [round(part * PER_MM * 16 - 8) for z in line for part in (z.real, 60 - z.imag)]
         cv2.line(dark, (at[0], at[1]), (at[2], at[3]), 150, 4, cv2.LINE_AA, 4)
@@ -649,6 +653,43 @@ def test_an_end_is_where_its_arrowhead_is(end: float, stop: float) -> None:
 
     assert abs(points[1] - end - 20j) < 0.3
     assert errors[1] < 0.5
+
+
+@pytest.mark.parametrize("both", [True, False])
+def test_a_small_arrowhead_tells_where_a_line_goes_on(both: bool) -> None:
+    pole, head, end = 20 + 20j, 27.6 + 20j, 60 + 20j
+    beside = [] if both else [(head - 2.3 - 0.8j, head - 0.3j)]  # a letter
+    pencil = pencil_of([(pole, end), *beside], [(pole, head), (head, end)] if both else [(head, end)])
+    way = plan_of([0j, 7 + 0j, 40 + 0j], (0, 1), (1, 2))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert not both or abs(points[1] - head) < 0.4
+    assert bool(errors[1] < 0.5) is both
+
+
+@pytest.mark.parametrize("clean", [True, False])
+def test_an_end_beside_which_nothing_is_drawn_is_no_letter(clean: bool) -> None:
+    pole, bend, end = 20 + 10j, 60 + 10j, 60 + 41.4j
+    pencil = pencil_of([(pole, bend), (bend, end), *([] if clean else [(end - 0.8j, end + 1 - 0.4j)])], [])
+    way = plan_of([0j, 40 + 0j, 40 + 30j], (0, 1), (2, 1))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert not clean or abs(points[2] - end) < 0.2
+    assert bool(errors[2] < 0.5) is clean
+
+
+def test_the_stem_of_a_letter_is_not_an_end_beside_where_a_short_vector_has_it() -> None:
+    pole, a, b, end = 20 + 10j, 60 + 10j, 60 + 40j, 58 + 40j
+    stem, letter = end + 1.2j, [(end + 1.2j, end - 1 + 1.1j), (end - 1 + 1.1j, end - 1 + 0.5j)]
+    foot = 58 + 10j
+    pencil = pencil_of([(pole, a), (a, b), (b, pole), (foot, stem), *letter], [])
+    way = plan_of([0j, 40 + 0j, 40 + 30j, 38 + 30j, 38 + 0j], (0, 1), (1, 2), (2, 0), (3, 2), (3, 4), (4, 1))
+
+    points, _, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[3] - end) < 0.5
 
 
 def test_one_point_that_is_taken_for_another_makes_no_plan_larger() -> None:

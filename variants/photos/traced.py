@@ -36,6 +36,9 @@ WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it i
 NIB, FLANK = 0.4, 0.4  # mm behind an arrowhead's point from where its wings are seen; mm beside them where paper is
 FORTH, BY = np.arange(-1.2, 1.21, 0.1), np.arange(-0.2, 0.21, 0.1)  # mm that the point is sought along and across
 TURNS = np.radians([-4.0, -2.0, 0.0, 2.0, 4.0])
+BAND, WIDE, NARROW = np.arange(0.35, 0.76, 0.1), 0.2, 0.1  # mm beside a line that is wider; how dark that is, or is not
+WIDER, BLUNT, LEVEL = 0.8, 0.55, 0.15  # mm along which it is; from there to the point; sine of lines that go on
+ALONE = 1.5  # mm of a line before its end beside which nothing is, if that is no letter
 ASIDE = 0.15  # mm, half the width of a line
 CONTRAST, TOP = 0.5, 0.15  # of wings against the paper beside them, at the least; within which places are as good
 ARROWED = 9.0  # mm of a vector whose arrowhead can be told from its line
@@ -97,11 +100,12 @@ class Traced:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Spot:
-    """Where a line ends, or an `arrow` points to, along its line."""
+    """Where a line ends, or an `arrow` points to, along its line; nothing is drawn beside a `clean` end."""
 
     place: complex
     unit: complex
     arrow: bool = False
+    clean: bool = False
 
     @property
     def error(self) -> float:
@@ -217,11 +221,15 @@ def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) 
                 points[b] - points[a] for n in found for a, b in (ends[n], ends[n][::-1]) if a == tip and b != tail
             ]
             turns = np.angle(np.array(others, complex) / span)
-            if not (np.abs(turns) < ONWARD).any():
-                near += _ended(pencil, line, complex(points[tail]), complex(points[tip]))
+            where = complex(points[tail]), complex(points[tip])
+            goes_on = (np.abs(turns) < ONWARD).any()
+            seen = [] if goes_on else [*_ended(pencil, line, *where)]
             back = math.pi - np.abs(turns)
             if (tail, tip) in arrows and not ((back > WINGS[0] - LIKE) & (back < WINGS[-1] + LIKE)).any():
-                near += _pointed(pencil, line, complex(points[tail]), complex(points[tip]))
+                seen += _pointed(pencil, line, *where)
+                if not seen and (np.abs(np.sin(turns)) < LEVEL).all():  # nothing else tells where it ends
+                    seen += _widened(pencil, line, *where)
+            near += seen
     for mark, some in spots.items():  # what is at another point is of that
         others_at = np.delete(points, mark)
         own = [s for s in some if np.abs(others_at - s.place).min() + NEARER > abs(points[mark] - s.place)]
@@ -314,11 +322,16 @@ def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: It
     return _Wings(max(pairs, default=math.nan), min(seen), max(seen))
 
 
+def _towards(line: Traced, tail: complex, tip: complex) -> tuple[complex, complex, float]:
+    """Return the direction of a line from tail to tip, the place on it beside the tip, and how far they are apart."""
+    unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
+    return unit, line.through + dot(line.unit, tip - line.through) * line.unit, abs(tip - tail)
+
+
 def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
     """Go through where a line ends near to its tip: there its darkness falls."""
-    unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
-    foot = line.through + dot(line.unit, tip - line.through) * line.unit
-    inside = min(REACH, 0.6 * abs(tip - tail))
+    unit, foot, size = _towards(line, tail, tip)
+    inside = min(REACH, 0.6 * size)
     along = np.arange(-inside, REACH + CLEAR, 1.0 / PER_MM)
     across = np.arange(-0.2, 0.21, 0.1)
     strip, hidden = pencil.at(foot + along[:, None] * unit + 1j * unit * across[None, :])
@@ -332,15 +345,15 @@ def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterato
         beyond = slice(at + 1, at + 1 + clear)
         if at + clear < len(along) and not on[beyond].any():
             if not hid[beyond].any():
-                yield _Spot(complex(foot + (along[at] - ROUND) * unit), unit)
+                end = complex(foot + (along[at] - ROUND) * unit)
+                dark, _ = _flanks(pencil, end, unit, np.arange(-ALONE, CLEAR, 1.0 / PER_MM))
+                yield _Spot(end, unit, clean=bool(dark.max() < WIDE * line.dark))
             return
 
 
 def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
     """Go through where an arrowhead on a line points to: its two wings are found, then where they meet the line."""
-    unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
-    foot = line.through + dot(line.unit, tip - line.through) * line.unit
-    size = abs(tip - tail)
+    unit, foot, size = _towards(line, tail, tip)
     if size < ARROWED:
         return
     at = np.arange(-min(REACH, size / 3), REACH, 1.0 / PER_MM)
@@ -359,6 +372,27 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         by = _apex(pencil, foot + place * unit, unit, angle, min(WING, 0.9 * size / 3))
         if by is not None:
             yield _Spot(complex(foot + (place + by) * unit), unit, arrow=True)
+
+
+def _widened(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
+    """Go through where a line becomes wider, on both sides alike: a small arrowhead points there, or a blotted one."""
+    unit, foot, size = _towards(line, tail, tip)
+    at = np.arange(-min(REACH, size / 3) - WIDER, min(REACH, size / 3), 1.0 / PER_MM)
+    dark, hidden = _flanks(pencil, foot, unit, at)
+    wide = dark.min(axis=0) / line.dark
+    before, beyond = round(WIDER * PER_MM), round(CLEAR * PER_MM)
+    for stop in np.flatnonzero((wide[:-1] > WIDE) & (wide[1:] <= WIDE)).tolist()[::-1]:
+        own = slice(max(stop + 1 - before, 0), stop + 1 + beyond)
+        if not hidden[own].any() and (wide[own][:before] > WIDE).all() and wide[stop + 1 : own.stop].min() < NARROW:
+            yield _Spot(complex(foot + (at[stop] + BLUNT) * unit), unit, arrow=True)
+            return
+
+
+def _flanks(pencil: Pencil, place: complex, unit: complex, along: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return how dark it is on both sides `along` a line from a place, of shape (2, N), and where that is hidden."""
+    off = np.array([1j, -1j])[:, None, None] * BAND
+    dark, hidden = pencil.at(np.asarray(place + unit * (along[:, None] + off)))
+    return dark.mean(axis=2), np.asarray(hidden.any(axis=(0, 2)))
 
 
 def _apex(pencil: Pencil, apex: complex, unit: complex, angle: float, size: float) -> float | None:
@@ -437,17 +471,18 @@ def _telling(spots: list[_Spot], crossing: complex, error: float, wanted: comple
 
     Where a line ends and its arrowhead points elsewhere, nothing tells, for a letter may touch either; but one goes on
     beyond an arrowhead that is about where it should be. Nor does what is far from where a point should be, if end and
-    arrowhead do not say the same: letters look like arrowheads, too, and no crossing says which it is.
+    arrowhead do not say the same, and the end is not clean: letters look like arrowheads, too, and like ends of lines.
     """
     near = [s for s in spots if abs(dot(s.unit, s.place - crossing)) < LIKELY * math.hypot(min(error, NEAR), s.error)]
     if error <= FLAT:
-        return near
+        own = [s for s in near if s.arrow or s.clean or abs(dot(s.unit, s.place - crossing)) <= ALIKE]
+        return [s for s in near if s in own or any(abs(_beyond(s, head)) <= ALIKE for head in own if head.arrow)]
     heads = [s for s in near if s.arrow and abs(dot(s.unit, s.place - wanted)) <= STRAYED]
     near = [s for s in near if s.arrow or not any(_beyond(s, head) > ALIKE for head in heads)]
     apart = max((abs(dot(one.unit, one.place - other.place)) for one in near for other in near), default=LOST)
-    alone = len(near) < 2 and not any(spot.arrow for spot in near) and error > TOLD
+    alone = len(near) < 2 and not any(spot.arrow or spot.clean for spot in near) and error > TOLD
     alone &= any(abs(dot(spot.unit, spot.place - wanted)) > ALIKE for spot in near)
-    strayed = any(abs(dot(spot.unit, spot.place - wanted)) > STRAYED for spot in near)
+    strayed = any(abs(dot(spot.unit, spot.place - wanted)) > STRAYED and not spot.clean for spot in near)
     strayed &= not any(abs(_beyond(*two)) <= ALIKE for two in combinations(near, 2))  # both tell the same
     return [] if apart > ALIKE or alone or strayed else near
 
