@@ -272,6 +272,17 @@ def test_answers_for_another_task_are_refused_and_a_head_that_was_edited_is_not(
     assert f"marked: {1 if other else 2}," in of_class
 
 
+def test_the_table_of_a_class_for_another_task_is_refused(tmp_path: Path, run: Run) -> None:
+    """Each of its columns was told to be unknown, and the others were marked."""
+    head, row = "student;V_B, m/s;V_C, m/s;V_CB, m/s;V_S3, m/s;V_S2, m/s", "Коваль;1;2;3;4;5"
+    (file := tmp_path / "class.csv").write_text(f"{head}\n{row}\n", encoding="utf-8")
+
+    status, out, err = run("check", TASK, file, "-v", "3", "--lang", "en")
+
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert "most columns of answers name no quantity of the task: V_C, V_CB, V_S3" in err.replace("'", "")
+
+
 def test_a_sheet_id_belongs_to_task_variant_and_data_and_stands_on_the_sheet(tmp_path: Path) -> None:
     task = load_task(TASK)
     ids = {sheet_id(task, name) for name in task.variants}

@@ -442,13 +442,16 @@ def _class(
             part = "direction" if part in ("dir", "sense") else part or ("mm" if paper else "value")
         by_name.setdefault(name, {}).setdefault(part, (column, written))
     asked_here = tuple(name for name in by_name if name in asked.quantities)
-    strangers = list[LocatedError]()
+    strangers, unknown_names = list[LocatedError](), dict[str, None]()
     for column, text in enumerate(grid.rows[header]):  # what looks like a quantity and is none
         lost = (text, "", "") if text.startswith("?_") else None
         of, read = quantity_part(text) or lost, column in columns or column in about.values()
         if of is not None and not read and of[0] not in asked.others | asked.unasked and ("_" in text or of[1]):
             place = f"{grid.place(header, column)}, {quote(text)}"
             strangers.append(LocatedError(place, unknown("quantity-unknown", of[0], asked.names)))
+            unknown_names[of[0]] = None
+    if len(unknown_names) > len(by_name):
+        raise LocatedError(grid.place(header), InputError("answers-other", names=quote(", ".join(unknown_names))))
     if warn is not None:
         for error in strangers:
             warn(error)
