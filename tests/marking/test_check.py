@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from kulman import check, load_task, sheet, solve
+from kulman import check, load_task, sheet, solve, tasks
 from kulman.plans.hands.shaky import PRESETS
 from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import ASKED, messages, write
@@ -25,9 +25,9 @@ from kulman.tests.support.commands import Run
 from kulman.tests.support.marking_cases import key, right_answers
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants import sheets
-from kulman.variants.case import Case
+from kulman.variants.case import Case, Request
 from kulman.variants.marking.figures import MARGIN, Box, boxes, plan_figures
-from kulman.variants.marking.keyed import read_rubric
+from kulman.variants.marking.keyed import data_said, data_text, read_rubric
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import report_html
 from kulman.variants.marking.result import result_of
@@ -348,8 +348,21 @@ def test_a_form_for_data_of_ones_own_is_marked_with_them(
     if task == TASK:
         verdict, flags = marked(set=other)
         assert verdict == "wrong"
-        told = "the form is for the data 'phi = 50 deg; l_OA = 55,5 mm'; it is marked with others"
+        told = "the form is for the data 'phi = 50 °; l_OA = 55,5 мм'; it is marked with others"
         assert flags == [f"{told}, those of the roster or of --set"]
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+@pytest.mark.parametrize("task", some(tasks(), 1, 2, 5))
+def test_all_data_of_a_task_come_back_from_the_row_of_a_form(task: str, language: str) -> None:
+    of = load_task(task)
+    variant = next(iter(of.variants))
+    case = Request(of, variant, language=language).case()
+
+    said = data_said(data_text(case, case.givens))
+
+    assert said.keys() == case.givens.keys()
+    assert sheet_id(of, variant, said) == sheet_id(of, variant)
 
 
 def test_data_of_a_form_that_cannot_be_read_are_told_and_not_passed_over(tmp_path: Path, run: Run) -> None:

@@ -322,12 +322,14 @@ def class_header(keyed: Keyed, who: Iterable[str], directions: bool, only: Colle
 def data_text(case: Case, names: Collection[str]) -> str:
     """Return the data of one's own in a case, those of `names`, as a form has them: `l_OA = 55 mm; phi = 30 deg`."""
 
+    words = case.words()
+
     def shown(given: Given) -> str:
         if isinstance(given.value, str):
             return given.value
         number = f"{given.value:.12g}"
         number = number if case.language == "en" else number.replace(".", ",")
-        return number if given.unit in ("", "1") else f"{number} {given.unit}"
+        return number if given.unit in ("", "1") else f"{number} {words.spelled(given.unit)}"
 
     return "; ".join(f"{name} = {shown(given)}" for name, given in case.givens.items() if name in names)
 
