@@ -227,7 +227,7 @@ def _spanned(task: Task, name: str, given: Given) -> _Range | None:
         step = _round_step(2 * spread)
         low, high = (math.ceil(low / step - spread / step) * step, high + spread) if step else (low, high)
         return _Range(given.unit.behind, low, high, step)
-    if len(values) == 2:  # which say nothing of a step
+    if len(values) == len(task.variants) == 2:  # which say nothing of a step
         step = _round_step(high - low)
         return _Range(given.unit.behind, math.ceil(low / step) * step, high, step)
     apart = [value - low for value in values]  # the largest step in which all are whole; 0 for one value
