@@ -11,6 +11,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+from kulman import solve
 from kulman.plans.hands.shaky import preset
 from kulman.plans.hoist import roots
 from kulman.plans.hoist.forces import BEAM, BOTH, COLUMN_UNITS, NEITHER, ROPE, course, forces
@@ -35,6 +36,7 @@ from kulman.plans.lab.hoists import (
     by_board,
     by_hand,
     rivals,
+    root_race,
     step_limits,
 )
 from kulman.plans.lab.hoists import exact as digits
@@ -137,6 +139,15 @@ def test_steps_beyond_the_limit_are_refused_where_oscillations_grow(method: str)
             state = STEPPERS[method](motion, 0.0, state, z)
             largest = max(largest, abs(state[0]))
         assert largest > 1e6 if grows else largest < 20.0
+
+
+def test_errors_of_guesses_come_down_to_that_of_the_root_where_a_method_stops() -> None:
+    hoist = solve("karpenko-hoist", "V03").solved.givens
+
+    for ways in root_race(hoist).values():
+        for method, errors in ways.errors.items():
+            if math.isfinite(ways.found[method].root):
+                assert np.nanmin(errors) <= max(ways.error(method), 1e-15), method
 
 
 def test_hoists_of_a_slower_clock_do_the_same_more_slowly() -> None:

@@ -850,3 +850,11 @@ def test_lines_that_find_a_joint_run_past_it(task: str) -> None:
         assert abs(cross(end - start, at - start)) < NEAR * abs(end - start)
         assert 3.0 < abs(end - at) < abs(at - start)
     assert len(lines) == 2
+
+
+@pytest.mark.parametrize(("only", "letters"), [("position", {"A"}), ("position,velocity", {"A_{1,2,3}"})])
+def test_coincident_points_are_lettered_by_their_links_where_they_are_told_apart(only: str, letters: set[str]) -> None:
+    strings = {text.string for text in position("scheme-11-slotter", only).texts}
+
+    assert {string for string in strings if string.startswith("A")} == letters
+    assert strings >= {"O", "C", "D", "E"}
