@@ -409,6 +409,15 @@ def test_a_roster_finds_who_is_named_once_by_the_surest_key() -> None:
     assert find(Who()) is None
 
 
+def test_students_who_share_a_variant_are_told_but_none_with_data_of_their_own(tmp_path: Path) -> None:
+    of = [["Kim", "3", ""], ["Lee", "3", ""], ["Smith", "4", "121 mm"], ["Jones", "4", "122 mm"], ["Brown", "4", ""]]
+    roster = write(tmp_path, [["student", "variant", "l_AB"], *of], name="roster")
+
+    told = [warning for warning in check(TASK, roster=roster).warnings if warning.key == "roster-variant-shared"]
+
+    assert [("Kim" in text, "Lee" in text, "Smith" in text) for text in map(str, told)] == [(True, True, False)]
+
+
 def test_namesakes_are_told_apart_by_group_and_by_variant(tmp_path: Path) -> None:
     of = [["Lee Kim", "M-1", "1"], ["Lee Kim", "M-2", "2"], ["Smith John", "M-1", "3"], ["Smith John", "M-1", "4"]]
     roster = write(tmp_path, [["student", "group", "variant"], *of], name="roster")
