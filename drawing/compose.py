@@ -32,7 +32,7 @@ ENOUGH = {"A4": 0.502, "A3": 0.652, "A2": 0.652, "A1": 0.652}  # part of a page 
 ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
 GROWN = 2.0  # times as large as before are texts with larger letters
 CROWDED = 0.85  # part of a page that views, with what is between them, never fill
-LARGE = {TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TABLE, TOLD}, {TOLD}, {TABLE, LEAD}, {TABLE}, {LEAD}, set[int]()
+LARGE = {TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TABLE, TOLD}, {TOLD}, {TABLE, LEAD}, {TABLE}, set[int](), {LEAD}
 KEPT = 8  # parts of the views of a page that are tried in reading order
 BARE = 0.105  # part of a page that may be one bare rectangle
 EMPTY = 0.119  # the same, between lines
@@ -761,8 +761,8 @@ def compose(
                 break
     for k, paper in enumerate(sheets):
         on, end = (paper, norm, k == 0), 0 < k == len(sheets) - 1
-        read = _as_read(_legible(pages[k], *on, end=end), *on)
-        pages[k] = read if end else _without_holes(read, *on)
+        page = pages[k] if end else _legible(pages[k], *on, several=len(sheets) > 1)
+        pages[k] = _as_read(page, *on) if end else _without_holes(_as_read(page, *on), *on)
     if len(pages) > 1 and sheets[-1] is sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
         parting.plain = False
         pages, short = parting.evened(pages)
@@ -786,18 +786,19 @@ def compose(
     return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction, short=short)
 
 
-def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: bool) -> list[Standing]:
+def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, several: bool) -> list[Standing]:
     """Return a page with larger letters and roomier tables where figures leave it too empty else.
 
-    All its tables and texts have them, or some, or those with which it begins, as the structure: as many as have room
-    in reading order without leaving the page short of what fills it. Where none do, as many as have room in any order,
-    but not on the last of several pages, at its `end`, which may be empty. Parts of what stands on another page, too,
-    stay as they are.
+    Of `several` pages all have letters of one height but those that would be short of what fills them. On the only one
+    all tables and texts have larger letters in reading order, or none; where it would be short, all, some, or those
+    with which it begins, as the structure: as many as have room in reading order so that it is not, or else in any.
+    Parts of what stands on another page, too, stay as they are.
     """
     views = [view for view, _ in page]
     begins, paper = begins_of(views), (sheet, norm)
     full = Pages([view.size for view in views], *paper).fill(range(len(views)), 0 if first else 1)
-    if full >= ROOMY[sheet.letters] or any(view.of for view in views):
+    short = full < ROOMY[sheet.letters] and any(_lacks(page, *paper, first))
+    if full >= ROOMY[sheet.letters] or any(view.of for view in views) or (several and not short):
         return page
     lead = len([*takewhile(lambda kind: kind == TEXT, begins)])
     of = [TABLE if view.rows else LEAD if i < lead else TOLD for i, view in enumerate(views)]
@@ -809,22 +810,23 @@ def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: 
         return roomier(view, 0.0, row) if row else view
 
     room, without = (x1 - x0 + LEAST) * (y1 - y0 + LEAST), {on_a_page: CROWDED, on_one_page: CROWDED}
-    for place, kinds in product((on_a_page,) if end else (on_a_page, on_one_page), LARGE):
+    ways = product((on_a_page, on_one_page), LARGE) if short else product((on_a_page,), (LARGE[0], set[int]()))
+    for place, kinds in ways:
         areas = (
             math.prod(view.size) * (GROWN if view.style and k in kinds else 1.0)
             for k, view in zip(of, views, strict=True)
         )
         if sum(areas) > CROWDED * (x1 - x0) * (y1 - y0):  # surely without room
             continue
-        for row, wide in product((0.0,) if end or place is on_one_page else HIGH, (True, False)):
+        for row, wide in product((0.0,) if place is on_one_page else HIGH, (True, False)):
             again = [written(i, k in kinds, wide and k != TABLE, row * (k == TABLE)) for i, k in enumerate(of)]
             area = sum((view.size[0] + LEAST) * (view.size[1] + LEAST) for view in again)
             if area >= without[place] * room:  # hardly with room, where less had none
                 continue
-            for loose in (False,) if end or place is on_one_page else (False, True):
+            for loose in (False,) if place is on_one_page else (False, True):
                 placed = place([view.size for view in again], *paper, begins, first, loose)
                 found = [] if placed is None else [*zip(again, placed, strict=True)]
-                if found and (end or place is on_one_page or not any(_lacks(found, *paper, first))):
+                if found and (place is on_one_page or not any(_lacks(found, *paper, first))):
                     return found
                 if not found:
                     without[place] = area / room

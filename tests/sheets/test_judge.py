@@ -293,6 +293,28 @@ def test_figures_of_a_page_come_in_the_order_of_the_work(task: str, variant: str
             assert box[before][2] < box[after][0] or box[before][1] > box[after][3], (before, after)
 
 
+# the last page was emptier, or letters of the first one filled it well
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some(
+        [
+            ("scheme-18-hydraulic-drive", "0"),
+            ("scheme-12-shaking-conveyor", "0"),
+            ("scheme-13-toggle-press", "0"),
+            ("scheme-20-press-automaton", "0"),
+        ],
+        0,
+    ),
+)
+def test_tables_and_texts_of_several_pages_have_letters_of_one_height(task: str, variant: str) -> None:
+    told = [view.name for view in kulman.sheet(task, variant, lang="uk").views if view.rows or view.lines]
+    views = [view for page in sheet_of(task, variant).pages for view in page.views if view.name in told]
+
+    assert len({view.page for view in views}) == 2
+    caps = [max(run.cap for text in view.texts if text.role != "heading" for run in text.runs) for view in views]
+    assert caps == pytest.approx([3.5] * len(told))
+
+
 def pages_of(task: str, variant: str, languages: Iterable[str] = LANGUAGES) -> list[int]:
     """How many pages a sheet has in each language."""
     return [len(kulman.sheet(task, variant, lang=language).pages) for language in languages]
