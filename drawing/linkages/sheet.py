@@ -27,7 +27,7 @@ from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, Norm, printable, room
 from ..packing import Placement, Size
 from ..page import DATA, STATEMENT, TASK
-from ..tables import paged, text_block
+from ..tables import narrower, paged, text_block
 from ..view import View, numbered
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
@@ -51,6 +51,7 @@ Found = tuple[list[View], Rungs, list[Placement]]
 GROUPS_APART = 2  # from so many groups on each plan has equations and tables of its own
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 MOST = 2  # texts and tables that may stand beside the statement of a task
+NARROWER = 0.85, 0.7  # of their usual width may texts have that stand beside plans on a page of their own
 WRITTEN = 8.0  # mm of a row in which an answer is written by hand
 LEAF, COARSER = 2, 4  # pages of a leaf; scale factors that are tried for them
 ROUNDS = 2  # of changes that are tried of each plan for the sake of even pages
@@ -370,10 +371,16 @@ def _page(fitting: _Fitting, views: Sequence[View], sheet: Format) -> tuple[list
 def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     """Place the statement of the task before the work: on one page, on two, or on as many as they take.
 
-    Of two the first has the statement, the second one the plans, their tables and as many texts as it has room for.
+    Of two the first has the statement, the second one the plans, their tables and as many texts as it has room for,
+    which become narrower, if need be.
     """
     work, taken = fitting.fitted(sheet, rungs)
-    every = [[*views, *work] for views in fitting.statements(sheet, taken)]
+    stated = [*fitting.statements(sheet, taken)]
+    works = [work] + [
+        [narrower(view, part * view.size[0]) if view.lines else view for view in work]
+        for part in (NARROWER if any(view.lines for view in work) else ())
+    ]
+    every = [[*views, *some] for some in works for views in stated]
     begins, norm = begins_of(every[0]), fitting.contents.norm
     ways = [Pages([view.size for view in views], sheet, norm, begins) for views in every]
     order = [*range(len(begins))]
@@ -387,7 +394,8 @@ def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
         if (own := pages.tried(first, 0)) is not None and (others := pages.tried(rest, 1)) is not None:
             placed = dict(zip((*first, *rest), (*own, *others), strict=True))
             return views, taken, [placed[i] for i in order]
-    found = next((views for views, pages in zip(every, ways, strict=True) if pages.tried(order[:3], 0)), every[-1])
+    usual = zip(every[: len(stated)], ways, strict=False)
+    found = next((views for views, pages in usual if pages.tried(order[:3], 0)), every[len(stated) - 1])
     places = arrange([view.size for view in found], sheet, norm, begins)
     return None if places is None else (found, taken, places)
 

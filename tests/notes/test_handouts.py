@@ -206,6 +206,14 @@ def test_a_plan_is_not_much_smaller_beside_another_than_alone_on_a_blank(
         assert both.scales[plan].mu <= 2.501 * alone.scales[plan].mu
 
 
+@pytest.mark.parametrize("task", ["scheme-08-planer", "scheme-12-shaking-conveyor"])
+def test_equations_of_a_leaf_are_narrower_rather_than_a_crank_too_short_to_be_drawn(task: str) -> None:
+    both = handout(task, "0", only="position,velocity")
+
+    assert len(both.pages) == 2
+    assert solve(task, "0")["l_OA"].value / both.scales["position"].mu >= 8.0  # mm
+
+
 def test_what_a_task_fixes_stays_on_a_blank() -> None:
     blank = handout("madi-four-bar", only="velocity,acceleration")
 
