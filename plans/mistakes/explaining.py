@@ -406,31 +406,25 @@ class _Search:
         astray = np.flatnonzero(right > 1.0)  # not what is undefined, or not said
         if not np.isin(self.first, astray):
             return ()
-        lines, means = self.marking.lines, _mean(off[:, astray])
-        names, plan = [line.name for line in lines], lines[self.first].plan
+        lines, at, means = self.marking.lines, self.first, _mean(off[:, astray])
+        names, first, against = [line.name for line in lines], lines[at], self.moved & (off > 1.0)
         passed = [i for i, line in enumerate(lines) if line.verdict.passed]
-        before, beside = [i for i in passed if i < self.first], [i for i in passed if lines[i].plan == plan]
-        against = self.moved & (off > 1.0)
-        likely = (off[:, self.first] <= 1.0) & self.moved[:, self.first] & ~against[:, before].any(axis=1)
+        before, beside = [i for i in passed if i < at], [i for i in passed if lines[i].plan == first.plan]
+        likely = (off[:, at] <= 1.0) & self.moved[:, at] & ~against[:, before].any(axis=1)
         likely &= means <= (1.0 if len(astray) > 1 else ALIKE)
+        own = np.abs(self._times(first, self.book.table[:, at], self.book.right[at])[0])
+        calculated = first.name in self.valued and self._calculated(first.name)
         found = []
         for i in np.argsort(means, kind="stable"):
             mistake = self.book.signatures[i].broken
-            written = mistake.mistake in WRITTEN or (role(mistake.at).shown == names[self.first] and self._exactly(i))
+            formula = calculated and role(mistake.at).shown == first.name and own[i] < np.inf
+            written = mistake.mistake in WRITTEN or (formula and self._aside(first, own[i]) <= EXACT)
             if likely[i] and (written or not against[i, beside].any()):
                 missed = {names[j] for j in astray if off[i, j] > 1.0}
                 explained = tuple(name for name in self.faulty if name not in missed)
                 left = tuple(name for name in self.faulty if name in missed)
                 found.append(Candidate((mistake,), (), explained, left, float(means[i])))
         return _simplest(found)[:NEAR]
-
-    def _exactly(self, row: int) -> bool:
-        """Whether the first wrong line is calculated, and gives what a mistake makes of it as exactly as that does."""
-        line, place = self.marking.lines[self.first], self.first
-        own, _ = self._times(line, self.book.table[row], self.book.right[place])
-        size = line.answer.value if line.answer is not None else None
-        exact = size is not None and abs(abs(size) - abs(own[place])) <= EXACT * abs(own[place])
-        return self._calculated(line.name) and bool(exact)
 
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
@@ -457,14 +451,15 @@ class _Search:
         rank = misses + LEFT * missed + SPOILT * spoilt + SECOND * (len(chain) - 1) + ASIDE * unshown
         moved, order = ~(np.abs(last.row - self.book.right) <= self.book.allowed), (rank, 0)
         if len(chain) == 1:  # worse where a calculated number is not what the mistake makes of it
-            aside = ASIDE if self._aside(again[self.first]) > EXACT else 0.0
+            line = again[self.first]
+            aside = ASIDE if self._aside(line, abs(line.follows)) > EXACT else 0.0
             order = round(rank + aside, ALMOST), int(np.count_nonzero(moved))
         candidate = Candidate(tuple(one.broken for one in chain), (), explained, left, misses)
         return _Found(candidate, chain, again, clear, misses <= 1.0 and not clear and not spoilt, rank, order)
 
-    def _aside(self, line: Line) -> float:
+    def _aside(self, line: Line, against: float) -> float:
         """Return by what part a number that was calculated misses what it is held against; nothing for what was not."""
-        answer, against = line.answer, abs(line.follows)
+        answer = line.answer
         if answer is None or not known(answer.value) or not self._calculated(line.name) or not against < np.inf:
             return 0.0
         off = abs(abs(answer.value or 0.0) - against)
