@@ -237,6 +237,16 @@ def test_every_point_with_a_letter_is_drawn_and_every_link_between_joints_has_it
     assert numbered == {number for number, points in ends.items() if len(points) > 1}
 
 
+@pytest.mark.parametrize("task", some(SOME, 0))
+def test_poles_are_there_from_the_beginning_and_other_points_of_plans_with_a_step(task: str) -> None:
+    plans = [view for view in data_of(page_of(task))["views"] if view["name"] != "position"]
+    for plan in plans:
+        begins = {kind: {s["from"] for s in plan["shapes"] if s["k"] == kind} for kind in ("pole", "mark")}
+        assert begins["pole"] == {0}
+        assert begins["mark"] <= {*range(1, len(plan["steps"]) + 1)}
+    assert "lever" in {plan["name"] for plan in plans}
+
+
 def test_what_hangs_on_the_rope_of_a_hoist_moves_along_it() -> None:
     shapes = data_of(page_of("karpenko-hoist"))["views"][0]["shapes"]
     ends = [shape[key] for shape in shapes for key in ("a", "b", "at") if isinstance(shape.get(key), list)]
