@@ -74,6 +74,22 @@ def test_plans_are_found_at_another_scale_factor() -> None:
         assert found.plans[plan].turn == pytest.approx(cmath.phase(drawing.turn), abs=0.01)
 
 
+def test_a_plan_lies_where_it_does_whichever_of_its_lines_is_missing() -> None:
+    sheet = bare(FEW[0])
+    of_plan = [segment for segment in sheet.segments if segment[2] == "velocity"]
+    drawings = [[*of_plan], *([one for one in of_plan if one is not without] for without in of_plan)]
+
+    poles = []
+    for lines in drawings:
+        drawing = distorted(tuple(lines), np.random.default_rng(2), noise=0.0, stray=0)
+        plan = recognise(drawing.drawn, sheet.key).plans.get("velocity")
+        if plan is not None:
+            poles.append((plan.pole - drawing.shift) / drawing.turn - drawing.moved["velocity"])
+
+    assert len(poles) > 3
+    assert max(abs(pole - poles[0]) for pole in poles) < NEAR
+
+
 def test_nothing_is_found_where_nothing_is_drawn() -> None:
     sheet, nothing = bare(FEW[0]), np.zeros(0, complex)
 
