@@ -8,12 +8,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from kulman import check
 from kulman.drawing.linkages.reading import read
+from kulman.drawing.shapes import Text
 from kulman.plans.board import POSITION
 from kulman.plans.marking.answers import Verdict
+from kulman.plans.marking.lines import Drawn, Letter
 from kulman.plans.names import LEVER, role
 from kulman.scales.errors import InputError
 from kulman.tests.support.cases import some
@@ -22,6 +25,7 @@ from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.keyed import Keyed
 from kulman.variants.marking.marked import Desk, Marked
+from kulman.variants.marking.overlay import _under
 
 TASKS = ("nau-slider-crank", "madi-four-bar", "scheme-09-shaper")
 APART = 400.0  # mm between plans
@@ -303,3 +307,12 @@ def test_a_marked_drawing_is_plain_data_too(tmp_path: Path, run: Run) -> None:
     said = json.loads(stdout)
     assert said["counts"]["wrong"] == 0
     assert {line["verdict"] for line in said["lines"]} <= {"right", "missing"}
+
+
+def test_letters_of_a_drawing_lie_under_its_verdicts_as_high_as_they_are_but_no_higher_than_twenty_mm() -> None:
+    letters = (Letter("A", 5.0 + 5.0j, 3.5), Letter("B", 9.0 + 5.0j, 300.0))
+    drawn = Drawn(np.array([0j]), np.array([10.0 + 10.0j]), letters)
+
+    shown = {shape.markup: shape.height for shape in _under(drawn, (0.0, 0.0, 10.0, 10.0)) if isinstance(shape, Text)}
+
+    assert shown == {"A": 3.5, "B": 20.0}
