@@ -98,7 +98,8 @@ class _Letter(NamedTuple):
     """A letter that is asked for, the stage to which it belongs, and what the notes say where it is left out.
 
     One that `stays` is left out only where nothing else helps. Of two that the notes would tell by the same words one
-    stays, unless these have a `bare` form that tells it without the other.
+    stays, unless these have a `bare` form that tells it without the other. Its `first` letters are those of an earlier
+    stage, with that stage.
     """
 
     request: Request
@@ -108,6 +109,7 @@ class _Letter(NamedTuple):
     spare: str
     stays: bool
     bare: str
+    first: tuple[str, str] | None
 
 
 @dataclass(slots=True)
@@ -167,19 +169,21 @@ class Canvas:
         optional: bool = False,
         last: str = "",
         bare: str = "",
+        first: tuple[str, str] | None = None,
     ) -> None:
         """Ask for a letter beside a node, or beside a line from one point to another.
 
         One that would cover something and has a `spare` text is left out, and the text goes into the notes. It may be
         turned `along` the line; an `optional` one is so where it can, and is left out where there is no room. One that
         has only a `last` text is left out where nothing else helps; a blank text is said elsewhere. Where another
-        letter with the same text is left out, too, the notes have the `bare` one.
+        letter with the same text is left out, too, the notes have the `bare` one. What it begins with may be all of it
+        in an earlier stage: the `first` markup, and that stage.
         """
         height = height or self.style.label
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
         request = Request(name, *layout.size, anchor, clear, prefer, priority, strict, not spare, along, optional)
-        self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare)
+        self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare, first)
 
     def small(
         self, markup: str, anchor: complex | tuple[complex, complex], prefer: complex = 0j, clear: float = 0.8
@@ -233,16 +237,20 @@ class Canvas:
             at, of = placed.corners[label] - corner, letter.request.anchor
             ends = of if isinstance(of, tuple) else (of,)
             letters.append(Text(at, letter.markup, letter.height, angle=angle, role="label", of=ends))
-        stages = [letter.stage for letter in kept.values()]
+        stages = [letter.first[1] if letter.first else letter.stage for letter in kept.values()]
         parts, whole = self._broken([*zip(letters, stages, strict=True)], parts, scene)
-        parts += (letter.stage for letter in kept.values())
+        for text, letter in zip(letters, kept.values(), strict=True):
+            if letter.first:  # whole, as a line is that breaks off at letters to come, until these are there
+                begun = replace(text, markup=letter.first[0])
+                whole[len(self.shapes) + letters.index(text)] = _Whole(begun, {extent((text,)): letter.stage})
+        parts += stages
         spare = self._left_out(kept)
         notes = (*notes, *("; ".join(spare[i : i + EACH]) for i in range(0, len(spare), EACH)))
         self.shapes += letters
         for label, way in placed.leaders.items():
             bent = Polyline(way, Pen.THIN, role="leader", name=kept[label].markup)
             self.shapes.append(bent if len(way) > 2 else Line(way[0], way[1], Pen.THIN, role="leader", name=bent.name))
-            parts.append(kept[label].stage)
+            parts.append(stages[[*kept].index(label)])
         x0, y0, x1, y1 = write_above(self.shapes, heading, notes if heading else (), self.style)
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()

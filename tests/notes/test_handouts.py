@@ -122,6 +122,31 @@ def test_a_blank_has_no_answers(task: str) -> None:
     assert not [line for line in said & notes if re.search(r"= ?\d", line)]
 
 
+LETTERED = [
+    ("scheme-14-jaw-crusher", "0", 0),  # where the first normal acceleration is shorter than a dot
+    ("scheme-09-shaper", "3", 3),  # where an inset shows the pole of forces
+    *((task, None, steps) for task in bundled() for steps in (0, 3)),
+]
+
+
+@pytest.mark.parametrize(("task", "variant", "steps"), some(LETTERED, 0, 1))
+def test_a_begun_handout_letters_each_pole_that_the_key_letters(task: str, variant: str | None, steps: int) -> None:
+    case, drawn = Request(load_task(task), variant).case(), 0
+    words, begun = case.words(), handout(task, variant, steps=steps)
+    whole = {view.name: view.shapes for view in begun.views}
+
+    def labels(shapes: Iterable[Shape]) -> list[str]:
+        return [shape.markup for shape in shapes if isinstance(shape, Text) and shape.role == "label"]
+
+    for view in views_of(begun):
+        for pole in (g.name for g in all_groups(view) if g.role == "point" and g.name.endswith((".p", ".0"))):
+            letter = re.compile(rf"{re.escape(words.mark(pole))}(,|$)")
+            if any(map(letter.match, labels(whole[view.name]))):  # else its inset has it
+                assert any(map(letter.match, labels(view.shapes))), (view.name, pole)
+                drawn += 1
+    assert drawn or case.kind.table != "mechanism"
+
+
 @pytest.mark.parametrize(
     ("task", "lang"), [(TASK, "uk"), ("scheme-09-shaper", "ru"), ("scheme-18-hydraulic-drive", "en")]
 )

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from kulman.drawing.shapes import Arc, Group, Line, Pen, Polyline, Shape
+from kulman.drawing.shapes import Arc, Group, Line, Pen, Polyline, Shape, Text
 
 
 def leaves(shapes: Iterable[Shape]) -> Iterator[Shape]:
@@ -26,6 +26,8 @@ def line_of(shape: Shape) -> object:
             return role, name, shape.pen, round(centre.real, 4), round(centre.imag, 4), round(radius, 4)
         case Polyline(pen=Pen.THIN, role="profile", name=name):
             return "profile", name
+        case Text(at=at, markup=markup, role="label"):  # letters that share a place come one after another
+            return markup.partition(", ")[0], round(at.real, 4), round(at.imag, 4), shape.height
     return shape
 
 

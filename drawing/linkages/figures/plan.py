@@ -241,7 +241,9 @@ def with_insets(
     before = len(shapes)
     x0, y0, x1, y1 = write_above(shapes, heading, notes, canvas.style)
     parts = (*figure.parts, *(ENLARGED for _ in insets), *("" for _ in shapes[before:]))
-    return View(name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts)
+    return View(
+        name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts, whole=figure.whole
+    )
 
 
 def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
@@ -357,10 +359,13 @@ def letter_marks(
     for mark in poles:
         canvas.part(mark, scene.point(places[mark], mark))
     for place, marks in at.items():
-        canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in marks))
+        stages = [canvas.parts.get(mark, mark) for mark in marks]
+        begun = [mark for mark, stage in zip(marks, stages, strict=True) if stage == stages[0]]
+        first = (", ".join(letters[m] for m in begun), stages[0]) if len(begun) < len(marks) else None
+        canvas.part(scene.last(stages))
         texts = dict.fromkeys(said.get(mark, "") for mark in marks)
-        last = next(iter(texts)) if len(texts) == 1 else ""
-        canvas.label(", ".join(letters[m] for m in marks), place, prefer=place - middle, priority=1, last=last)
+        last, text = next(iter(texts)) if len(texts) == 1 else "", ", ".join(letters[m] for m in marks)
+        canvas.label(text, place, prefer=place - middle, priority=1, last=last, first=first)
     for mark in letters:
         if mark not in poles:
             canvas.part(mark, Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
