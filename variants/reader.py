@@ -52,6 +52,9 @@ _ENDED = re.compile(r"""([\w.-]+\s*=\s*(?:[-+]?[0-9][0-9.]*|"[^"]*"|'[^']*'|\[[^
 _WORDS = re.compile(
     r"""([\w.-]+)\s*=\s*([^\W\d_][^"'=]*|[-+−]?[0-9]+(?:[.][0-9]+)?(?:,[0-9]+|\s*[^\W\d][^"'=]*|\s*°[^"'=]*))"""
 )
+_PART = re.compile(r'''"""(?:.|\n)*?"""|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*|[][{}]''')  # texts, comments, brackets
+_KEY, _VALUE = re.compile(r"""[\w.-]+\s*="""), re.compile(r"""["'[{0-9+-]""")
+_BEGINS = re.compile(r"[ \t]*(?:\[+[ \t]*[^\W\d][\w.]*[ \t]*\]|[\w.-]+[ \t]*=)")
 _OPEN = re.compile(r"""[\w.-]+\s*=\s*"[^"]*""")
 
 
@@ -205,7 +208,48 @@ def syntax_fault(toml: str, file: str, reason: str) -> InputError:
             line = toml.count("\n", 0, toml.index("[", single.start())) + 1
             return LocatedError(f"{file}:{line}:1", InputError("toml-rows", text=text, cure=Written(f"[[{rows[1]}]]")))
         return LocatedError(f"{file}:{line}:{column}", InputError("toml-twice", text=text))
+    offset = sum(len(one) + 1 for one in lines[: line - 1]) + column - 1
+    whole, quoted = "\n".join(lines), _MARKS.search(written) or written.count('"') % 2
+    if not quoted and (missing := _in_brackets(whole, offset)) is not None:
+        at, error = missing
+        before = whole[:at].split("\n")
+        return LocatedError(f"{file}:{len(before)}:{len(before[-1]) + 1}", error)
     return LocatedError(f"{file}:{line}:{column}", _ill_written(written, column))
+
+
+def _in_brackets(toml: str, offset: int) -> tuple[int, InputError] | None:
+    """Return what is missing within brackets before an offset, and where: a comma, or the bracket that closes them."""
+    start = toml.rfind("\n", 0, offset) + 1
+    begun = _opened(toml[:start])
+    if begun and _BEGINS.match(toml, start):  # the next table, or the next key
+        return begun[-1], InputError("toml-unclosed", text=quote(_line(toml, begun[-1])))
+    opened = _opened(toml[:offset])
+    if not opened:
+        return None
+    table, rest = toml[opened[-1]] == "{", toml[offset:].lstrip(" \t")
+    before = _PART.sub(lambda part: "" if part[0].startswith("#") else part[0], toml[:offset]).rstrip()
+    if (_KEY if table else _VALUE).match(rest) and before[-1:] not in ("", ",", "=", "[", "{"):
+        last = before.rpartition("\n")[2].split()[-1]
+        end = toml.rindex(last, 0, offset) + len(last)
+        return end, InputError("toml-comma", text=quote(toml[end - len(last) :].partition("\n")[0]), cure=f"{last},")
+    if table and (not rest or rest.startswith(("\n", "#"))):
+        return opened[-1], InputError("toml-unclosed", text=quote(_line(toml, opened[-1])))
+    return None
+
+
+def _line(toml: str, at: int) -> str:
+    return toml[toml.rfind("\n", 0, at) + 1 :].partition("\n")[0].strip()
+
+
+def _opened(toml: str) -> list[int]:
+    """Return where the brackets stand that are open at the end of a text, the innermost last."""
+    opened = list[int]()
+    for part in _PART.finditer(toml):
+        if part[0] in "[{":
+            opened.append(part.start())
+        elif part[0] in "]}" and opened:
+            opened.pop()
+    return opened
 
 
 def _ill_written(line: str, column: int) -> InputError:

@@ -96,6 +96,14 @@ FILES = {
     "Cyrillic key": ('phi = "45 deg"', "рhi = 45", "name-cyrillic"),
     "no equals sign": ('phi = "45 deg"', "phi 45", "toml-bad"),
     "string not closed": ('phi = "45 deg"', 'phi = "45 deg', "toml-open"),
+    "no comma in a table": ('B = ["l_AB", "0 mm"],', 'B = ["l_AB", "0 mm"]', "toml-comma"),
+    "no comma before a text": ('"structure", "position"', '"structure" "position"', "toml-comma"),
+    "no comma between rows": ('"structure", "position"', '"structure",\n  "lever" # last\n  "position"', "toml-comma"),
+    "no comma behind a number": ('default = "cw"', "default = 3 choices = 5", "toml-comma"),
+    "array not closed": ('"lever"]', '"lever"', "toml-unclosed"),
+    "rows not closed": ('phi = { unit = "deg" }', 'phi = [\n{ unit = "deg" },', "toml-unclosed"),
+    "table not closed": ('phi = { unit = "deg" }', 'phi = { unit = "deg"', "toml-unclosed"),
+    "table without an end": ('phi = { unit = "deg" }', 'phi = { unit = "deg",', "toml-unclosed"),
 }
 
 
