@@ -57,7 +57,14 @@ CODED, DIGEST = "KULMAN", 8  # what a QR code begins with, how many digits tell 
 ALL = 1000  # steps: no plan has more
 BESIDE = PAGE, CONSTRUCTION = ".html", ".ggb"  # a page on which plans move, a construction for GeoGebra
 SUFFIXES = (*WRITERS, *BESIDE)
-ABOUT_PAPER = {"scales-changed", "scale-coarser", "cam-smaller", "gear-smaller", "hoist-smaller"}  # keys of warnings
+ABOUT_PAPER = {
+    "scales-changed",
+    "scales-reduced",
+    "scale-coarser",
+    "cam-smaller",
+    "gear-smaller",
+    "hoist-smaller",
+}  # keys of warnings
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -293,7 +300,8 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
     if changed:
         shows = case.command("solve", "--format", drawn.sheet.letters)
         said = {"format": drawn.sheet.letters, "usual": paper.name, "command": shows}
-        warnings.append(InputError("scales-changed", changes=tuple(changed.values()), **said))
+        key = "scales-reduced" if paper.name == drawn.sheet.letters else "scales-changed"
+        warnings.append(InputError(key, changes=tuple(changed.values()), **said))
     with lettered(case.lettering, case.language):
         pages = drawn.pages(stamp)
     return Sheet(pages, drawn.scales, drawn.format, tuple(warnings), drawn.views)

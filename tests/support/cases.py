@@ -89,7 +89,7 @@ def as_drawn(solution: Solution, sheet: Sheet) -> Solution:
     """What a sheet shows: what is solved, or, where it is smaller so as to have no more pages and says so, on it."""
     if same_scales(solution, sheet):
         return solution
-    (warning,) = [warning for warning in sheet.warnings if warning.key == "scales-changed"]
+    (warning,) = [warning for warning in sheet.warnings if warning.key.startswith("scales-")]
     changed = {symbol for symbol, mu in mus(solution).items() if mu != mus(sheet)[symbol]}
     assert set(re.findall(r"mu_\w+", warning.text("en"))) == changed
     return kulman.solve(solution.task.id, solution.variant, format=sheet.format)
