@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from importlib import import_module
 from numbers import Real
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar, cast
 
 from ..drawing.words import Given, Words
 from ..plans.names import role, scale_factor
@@ -165,6 +165,14 @@ class Case(Request):
         return kind_of(self.task.kind)
 
 
+class Tie(NamedTuple):
+    """Of which given another one is a part, and which part it is at least and at most."""
+
+    whole: str
+    least: float
+    most: float
+
+
 class Kind(Generic[Subject, Answer]):
     """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it.
 
@@ -266,6 +274,10 @@ class Kind(Generic[Subject, Answer]):
         for check in self.checks(solved):
             if not check.ok:
                 yield InputError("variant-check", check=check.name)
+
+    def ties(self, task: Task) -> dict[str, Tie]:
+        """Return which givens are parts of others, as far as new variants must keep to them."""
+        return {}
 
     def checks(self, solved: Answer) -> tuple[Check, ...]:
         """Return what a second route, or a rule of good design, says of a solution."""

@@ -22,7 +22,7 @@ from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import Request
-from kulman.variants.kinds import linkage
+from kulman.variants.kinds import KINDS, linkage
 from kulman.variants.kinds.linkage import _short_vectors
 from kulman.variants.making.new_variants import (
     _most_pages,
@@ -31,6 +31,7 @@ from kulman.variants.making.new_variants import (
     _with_variants,
     import_variants,
 )
+from kulman.variants.making.starter import start
 from kulman.variants.reader import read_text
 from kulman.variants.sheets import draw_case
 from kulman.variants.shelf import bundled, bundled_text
@@ -82,6 +83,43 @@ def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[st
             assert solve(new.task, variant, set={"phi": step}, only="position").status != "no-assembly"
 
 
+def test_new_variants_divide_links_by_their_centres_of_mass_as_the_others_do() -> None:
+    own = load_task("scheme-03-crank-rocker")
+    new = all_variants(own, make=6, ranges={"l_OA": "40..60/5 mm"}, seed=2).new
+
+    assert new is not None
+    for values in (row.values for row in new.task.variants.values()):
+        for part, whole in (("l_AS2", "l_AB"), ("l_CS3", "l_CB")):
+            assert float(values[part]) == pytest.approx(0.5 * float(values[whole]))
+    free = all_variants(own, make=1, ranges={"l_AS2": "20..30/5 mm"}, seed=2).new  # whoever asks for a range has it
+    assert free is not None
+    assert 0.02 <= float(free.task.variant("1").values["l_AS2"]) <= 0.03
+
+
+def test_a_centre_of_mass_stays_between_the_parts_of_its_link_that_variants_have(tmp_path: Path) -> None:
+    text = bundled_text("scheme-03-crank-rocker").replace("l_AS2 = 150", "l_AS2 = 120")  # 0.4 of 300
+    (file := tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    new = all_variants(file, make=4, seed=3).new
+
+    assert new is not None
+    parts = [float(row.values["l_AS2"]) / float(row.values["l_AB"]) for row in new.task.variants.values()]
+    assert all(0.4 - 1e-9 <= part <= 0.5 + 1e-9 for part in parts)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_new_writes_is_drawn_without_warnings_and_makes_variants(kind: str, tmp_path: Path) -> None:
+    task = load_task(start(tmp_path / "own.toml", "en", kind))
+    stated = {frozenset(row.values) for row in task.variants.values()}
+
+    for variant in task.variants:
+        assert sheet(task, variant).warnings == ()
+    new = all_variants(task, make=2, seed=1).new
+    assert new is not None
+    assert {frozenset(row.values) for row in new.task.variants.values()} <= stated
+    for variant in new.task.variants:
+        assert solve(new.task, variant).warnings == ()
+
+
 @pytest.mark.parametrize(("phi", "quantity"), [("180°", "V_B"), ("90°", "V_BA")])
 def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) -> None:
     case = solve_case(TASK, "3", {"phi": phi}, None, None)
@@ -96,7 +134,7 @@ def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) ->
 def test_what_would_be_drawn_smaller_is_refused_before_it_is(task: str, settings: dict[str, str]) -> None:
     asked = Request(load_task(task), None, settings)
 
-    assert any(warning.key in ("scales-changed", "scale-coarser") for warning in draw_case(asked.case()).warnings)
+    assert any(warning.key in ("scales-changed", "scales-reduced", "scale-coarser") for warning in draw_case(asked.case()).warnings)
     with pytest.raises(InputError) as refused:
         draw_case(replace(asked, as_wanted=True).case())
     assert refused.value.key == "variant-room"

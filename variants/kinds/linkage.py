@@ -23,7 +23,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Segment, chooser
-from ..case import PARTS, WIDTH, Case, Choices, Kind, Numbers, Plans, Scales
+from ..case import PARTS, WIDTH, Case, Choices, Kind, Numbers, Plans, Scales, Tie
 from ..checks.mechanism import branched, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
@@ -129,6 +129,19 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
                 always = always & _short_vectors(other)
         for name in sorted(short - always):
             yield InputError("variant-short", quantity=name)
+
+    def ties(self, task: Task) -> dict[str, Tie]:
+        """Return of which length of its link each distance to a centre of mass is a part, and of how much of it."""
+        found, stated = dict[str, Tie](), [row.values for row in task.variants.values()]
+        for link in task.mechanism.links:
+            for axis, own in enumerate(link.points[link.centre] if link.centre else ()):
+                others = {place[axis] for place in link.points.values()} - {own}
+                wholes = [name for name in sorted(others) if all(row.get(name) for row in stated)]
+                if wholes and all(own in row for row in stated):
+                    whole = max(wholes, key=lambda name: stated[0][name])
+                    parts = [float(row[own]) / float(row[whole]) for row in stated]
+                    found[own] = Tie(whole, min(parts), max(parts))
+        return found
 
     def remarks(self, task: Task, variant: str, solved: SolvedLinkage) -> Iterator[InputError]:
         """Go through what a teacher should know: where a crank does not turn, where links lie in line."""

@@ -7,7 +7,7 @@ import math
 import os
 import random
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cache
@@ -18,7 +18,7 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.names import by_name
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
-from ..case import Request, Settings, kind_of
+from ..case import Request, Settings, Tie, kind_of
 from ..crew import Advance
 from ..reader import TaskFileError, load_task, task_of
 from ..sheets import draw_case
@@ -64,7 +64,8 @@ def make_variants(
     """Make so many variants from ranges, each a good exercise: it can be solved and drawn without a warning.
 
     A crank turns round, lines meet at angles over 20 degrees, plans fit at the scale factors that the task wants, and
-    what the task's kind calls good design holds. Ranges, `{"l_OA": "25..60/5 mm"}`, say from, to, and a step; of other
+    what the task's kind calls good design holds. A centre of mass divides its link as in the task's variants, and
+    each states the givens that one of these does. Ranges, `{"l_OA": "25..60/5 mm"}`, say from, to, and a step; of other
     givens they are what the task's variants span; those in `set` all have alike. The same seed gives the same variants.
     Where too few sets are good an error says what was wrong last.
     """
@@ -76,15 +77,21 @@ def make_variants(
     spans = _ranges_of(found, {name: str(text) for name, text in by_name("ranges", ranges).items()})
     luck, seen, pages = random.Random(seed), dict[tuple[str, ...], None](), _most_pages(found)
     rows: dict[str, Mapping[str, str]] = {}
+    asked = {*fixed, *(ranges or {})}
+    models = _models(found, asked)
+    ties = {name: tie for name, tie in kind_of(found.kind).ties(found).items() if name not in asked}
     for number in range(count):
         reason: KulmanError | None = InputError("variants-few", found=number)
         for _ in range(TRIES):
-            row = {name: span.pick(luck) for name, span in spans.items() if name not in fixed}
+            model, kept = models[0] if len(models) == 1 else luck.choice(models)
+            row = {name: kept.get(name) or spans[name].pick(luck) for name in kept if name not in fixed}
+            row |= fixed
+            for name, tie in ties.items():
+                row[name] = spans[name].tied(found.givens[tie.whole], row[tie.whole], tie, luck)
             if tuple(row.values()) in seen:
                 continue
             seen[tuple(row.values())] = None
-            row |= fixed
-            reason = next(filter(None, _looked_at(found, next(iter(found.variants)), row, pages, through=False)), None)
+            reason = next(filter(None, _looked_at(found, model, row, pages, through=False)), None)
             if reason is None:
                 rows[str(number + 1)] = row
                 break
@@ -162,6 +169,33 @@ class _Range:
         count = int((self.high - self.low) / self.step) if self.step else 0
         value = luck.choice(row) if row else self.low + luck.randint(0, count) * self.step
         return f"{value.normalize():f} {self.unit}".strip()
+
+    def tied(self, whole: Given, text: str, tie: Tie, luck: random.Random) -> str:
+        """Return a value, as it is written, that is such a part of the `whole` as the task's variants have."""
+        assert whole.unit is not None
+        size = whole.read(text)
+        assert isinstance(size, float)
+        low, high = (_decimal(part * whole.unit.from_si(size)) for part in (tie.least, tie.most))
+        step = self.step if low < high else Decimal(0)
+        low = max(math.ceil((low - self.low) / step) * step + self.low, low) if step else low
+        return replace(self, low=low, high=max(low, high), step=step).pick(luck)
+
+
+def _models(task: Task, asked: Collection[str]) -> list[tuple[str, dict[str, str]]]:
+    """Return variants that state different givens, or choose other words, each with what is to be stated like it.
+
+    Words, and what is endless, are kept; of other givens, those `asked` for among them, nothing is said.
+    """
+    found: dict[tuple[tuple[str, str], ...], str] = {}
+    for variant in task.variants.values():
+        stated = dict.fromkeys(name for name in task.givens if name in variant.values or name in asked)
+        for said, others in task.instead:
+            if said <= {*asked}:
+                stated = dict.fromkeys(name for name in stated if name not in others or name in asked)
+        values = ((name, variant.values.get(name, "")) for name in stated)
+        kept = {name: str(value) if isinstance(value, str) or math.isinf(value) else "" for name, value in values}
+        found.setdefault(tuple(kept.items()), variant.id)
+    return [(name, dict(kept)) for kept, name in found.items()]
 
 
 def _ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, _Range]:
