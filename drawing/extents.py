@@ -21,7 +21,7 @@ from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
-FILL, TWO, SHARED = 0.88, 0.84, 0.72
+FILL, TWO, SHARED = 0.88, 0.81, 0.72
 ALONE = 0.865  # of the only page, with the least segments: else two pages have larger plans
 FIXED = 0.90  # of any page where all plans are fixed, and none can become smaller
 # of these, and of the least segments, where what is drawn takes more pages than that
