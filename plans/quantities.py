@@ -96,6 +96,10 @@ class Quantity:
         """Return the size of the value."""
         return abs(float(self))
 
+    def __round__(self, digits: int | None = None) -> float:
+        """Return the value, rounded as a number is: to so many digits behind the point, to a whole one without any."""
+        return round(float(self), digits)
+
     def _number(self, other: Any) -> float:
         """Return in the unit of this quantity what is added to it, or compared with it."""
         if isinstance(other, str):

@@ -368,6 +368,7 @@ def test_a_quantity_is_compared_and_calculated_with_as_a_number_in_its_unit(solu
     assert speed <= speed.to("km/h") * 1
     assert speed + speed.to("mm/s") == pytest.approx(2 * size)
     assert 1 / speed == pytest.approx(1 / size)
+    assert (round(speed, 2), round(speed)) == (round(size, 2), round(size))
     assert (abs(speed), -speed, 1 - speed, 2 * speed, speed / speed) == (size, -size, 1 - size, 2 * size, 1)
     with pytest.raises(KulmanError):
         speed + solution["a_B"]

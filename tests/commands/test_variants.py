@@ -68,6 +68,7 @@ def test_only_the_variants_asked_for_are_solved(run: Run) -> None:
         (["--make", "3", "--range", "l_OA=9"], "25..60/5 mm"),
         (["--make", "3", "--range", "l_OA=60..20 mm"], "60..20"),
         (["--make", "3", "--range", "rotation=1..2"], "rotation"),
+        (["--make", "3", "--range", "lOA=25..60 mm"], "nau-slider-crank"),
         (["--make", "3", "--range", "l_OA=-5..-1 mm"], "l_OA"),
         (["--make", "3", "--set", "l_OA=300 mm"], "--make 3: found: 0; of 50 more sets"),
         (["--make", "3", "--from", "x.csv"], "--from"),

@@ -15,7 +15,7 @@ from itertools import starmap
 
 from ...drawing.writers import slug
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import by_name
+from ...scales.names import by_name, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
 from ..case import Request, Settings, Tie, kind_of
@@ -176,9 +176,11 @@ class _Range:
         size = whole.read(text)
         assert isinstance(size, float)
         low, high = (_decimal(part * whole.unit.from_si(size)) for part in (tie.least, tie.most))
-        step = self.step if low < high else Decimal(0)
-        low = max(math.ceil((low - self.low) / step) * step + self.low, low) if step else low
-        return replace(self, low=low, high=max(low, high), step=step).pick(luck)
+        # of the range's own steps where there are any between
+        first = self.low + (math.ceil((low - self.low) / self.step) * self.step if self.step else 0)
+        if not low <= first <= high:
+            first = high = low
+        return replace(self, low=first, high=high if self.step else first).pick(luck)
 
 
 def _models(task: Task, asked: Collection[str]) -> list[tuple[str, dict[str, str]]]:
@@ -209,7 +211,9 @@ def _ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, _Range]:
                 found[name] = replace(one, low=Decimal(math.ceil(one.low)), step=Decimal(math.ceil(one.step)))
     for name, text in asked.items():
         given = task.givens.get(name)
-        if given is None or given.unit is None:
+        if given is None:
+            raise unknown("given-unknown", name, found, task=task.id)
+        if given.unit is None:
             raise LocatedError(name, InputError("range-given", known=", ".join(found)))
         try:
             found[name] = _read(given, text, found.get(name))
