@@ -68,7 +68,7 @@ class Quantity:
     def __repr__(self) -> str:
         """Return name, value and unit; of a vector and a point the components, too."""
         sizes = [] if self.kind == "point" else ["–" if self.value is None else f"{self.value:.6g}"]
-        if self.kind != "scalar":
+        if self.kind == "point" or self.x is not None:
             sizes.append("–" if self.x is None or self.y is None else f"({self.x:.6g}, {self.y:.6g})")
         return f"{self.name} = {' '.join(sizes)} {self.unit}".rstrip()
 

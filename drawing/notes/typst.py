@@ -20,6 +20,7 @@ from ..tables import cells
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Profile, Sentences, Steps, Table
 
+SUSPECTS = b"/Suspects false"
 PREAMBLE = """\
 #set document(title: {title}, date: none)
 #set page(paper: "a4", margin: (left: {left}mm, right: {right}mm, top: {top}mm, bottom: {bottom}mm), {page})
@@ -214,7 +215,8 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
             f"form-{form}.svg" if form else "frame.svg": svg_text(page, with_font=False).encode()
             for form, page in note.framed_pages(document).items()
         }
-    return bytes(typst.compile(files, font_paths=_fonts()))
+    # the same is meant where nothing is said, and Poppler takes that for an error; all else stays at its place
+    return bytes(typst.compile(files, font_paths=_fonts())).replace(SUSPECTS, b" " * len(SUSPECTS), 1)
 
 
 @cache

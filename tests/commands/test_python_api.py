@@ -234,6 +234,7 @@ def test_a_notebook_shows_a_solution_as_its_table_or_why_there_is_none(solution:
     )  # which is not cut off
     assert all(f">{name}<" in solution._repr_html_() for name in solution.listed)
     assert apart.status == "no-assembly"
+    assert repr(apart["V_B"]) == "V_B = – m/s"
     assert apart.reason is not None
     assert apart.reason.text("uk") in apart._repr_html_()
     assert (same.to_json(), str(same.reason)) == (apart.to_json(), str(apart.reason))  # in another process, too
