@@ -18,7 +18,7 @@ from ..drawing.words import Given, Words
 from ..plans.names import role, scale_factor
 from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
-from ..scales.errors import InputError, Written
+from ..scales.errors import LANGUAGES, InputError, Written
 from ..scales.givens import Bound, Described, Givens
 from ..scales.names import all_known, by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
@@ -538,12 +538,16 @@ def positions_of(value: int, most: int | None = None) -> int:
 def plans_wanted(value: Wanted, task: Task) -> tuple[str, ...]:
     """Return the plans that `only` names, each alone or several with commas between; all of the task for none.
 
-    They come in the order of the work, however they are named.
+    They come in the order of the work, however they are named: reports name them in the language of their reader.
     """
     if value is None:
         return task.plans
     of_kind("only", value, (str, Iterable), "list[str]")
     items = (value,) if isinstance(value, str) else tuple(value)
     plans, known = names_of("only", items), kind_of(task.kind).plans
+    if not {*plans}.issubset(known):
+        texts = [packaged(f"{Kind.home}.drawing", "texts", language) for language in LANGUAGES]
+        said = {text[key].casefold(): plan for text in texts for plan in known if (key := f"hand.plan.{plan}") in text}
+        plans = tuple(said.get(name.casefold(), name) for name in plans)
     all_known("plan-unknown", plans or items[:1], known)
     return tuple(plan for plan in known if plan in plans) or task.plans

@@ -188,7 +188,11 @@ def test_a_given_is_any_real_number_or_a_text_with_a_unit(value: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    "only", ["velocity,lever", ["velocity", "lever"], ("velocity,lever",), iter(["velocity", "lever"])]
+    "only",
+    [
+        *("velocity,lever", ["velocity", "lever"], ("velocity,lever",), iter(["velocity", "lever"])),
+        *("Швидкості, важіль", ["скорости", "рычаг"]),  # as reports call them
+    ],
 )
 def test_plans_are_named_one_by_one_or_with_commas(only: Any) -> None:
     drawn = kulman.sheet(TASK, only=only)
