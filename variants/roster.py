@@ -388,7 +388,7 @@ class Schemes:
             raise InputError("batch-no-task", known=quote(", ".join(ids), SHOWN))
         return self.tasks[0]
 
-    def variant_of(self, task: Task, said: str, book: str, named: bool) -> str:
+    def variant_of(self, task: Task, said: str, book: str, named: bool = False) -> str:
         """Return the variant that a roster names, as it may have the task, else that of the book; there must be one."""
         if said:
             return task.variant(said).id

@@ -243,7 +243,7 @@ def test_results_of_equations_have_the_digits_of_their_rows_and_of_the_lever() -
             others += [task + ": " + text] * (printed[symbol[0]] != result[-1][1].lstrip("−"))
 
     assert alike > 250
-    assert len(others) < 0.03 * alike, others  # readings that agree with no digits of the number, a few of these
+    assert len(others) < 0.05 * alike, others  # readings in the middle of two numbers, or that agree with no digits
     assert long < 0.01 * inputs
 
 
@@ -338,7 +338,7 @@ def test_sliding_driver_is_stated_along_its_guide_and_balanced_by_a_force() -> N
 def test_crank_is_balanced_by_a_force_at_its_pin() -> None:
     scene = bundled("madi-four-bar", "ru", "madi")
 
-    assert told(scene, "ΣMA(1)") == "ΣMA(1) = 0: −Pур·lAB + R21·h21·μl1 = 0"
+    assert told(scene, "ΣMA(1)") == "ΣMA(1) = 0: −Pур·lAB + R21·h21·μl = 0"
     assert told(scene, "[[R21]]") == "[[R21]] + [[Pи1]] + [[Pур]] + R01 = 0"
     assert told(scene, "Mсумм =").startswith("Mсумм = Mи3 + M3 =")
     assert told(scene, "M3 =") == "M3 = 380,0 Н·м, против ω3"
@@ -348,7 +348,7 @@ def test_units_of_display_stand_in_equations() -> None:
     scene = scene_of(nau_slider_crank(), nau_values(), "uk")
     shown = replace(scene, words=scene.words.showing(Display("cm", "cm")))
 
-    assert told(shown, "VA =") == "VA = ω1·lOA = 80,11·5 = 400,6 см/с"
+    assert told(shown, "VA =") == "VA = ω1·lOA = 80,11·5 = 401 см/с"
     assert told(shown, "as2 =").endswith(" см")
     assert told(shown, "Mi2 =").endswith("Н·м")
     assert list(text_faults(shown)) == []
