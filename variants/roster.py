@@ -77,10 +77,14 @@ class Entry:
 
 @dataclass(frozen=True)
 class Roster:
-    """The students of a class, in the order of the file; `unread` are the heads of columns that say nothing here."""
+    """The students of a class, in the order of the file; `unread` are the heads of columns that say nothing here.
+
+    Of a class with one task `elsewhere` are the tasks of those who are left out.
+    """
 
     entries: tuple[Entry, ...]
     unread: tuple[str, ...] = ()
+    elsewhere: tuple[str, ...] = ()
 
     @cached_property
     def _by_key(self) -> Mapping[tuple[str, str], list[Entry]]:
@@ -213,10 +217,11 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
     columns = _columns(grid, header, of)
-    rows = list(columns.groups)
+    rows, elsewhere = list(columns.groups), dict[str, None]()
     if isinstance(of, Task):
         tasks = {row: columns.said(row).get("task", "") for row in rows}
         rows = [row for row, task in tasks.items() if task in ("", of.id) or task.isdigit()]  # a number is any
+        elsewhere = dict.fromkeys(task for row, task in tasks.items() if row not in rows)
         columns = replace(columns, about={kind: column for kind, column in columns.about.items() if kind != "task"})
 
     def read(row: int) -> Entry:
@@ -230,7 +235,7 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     said = {*columns.about.values(), *columns.givens}
     others = (text for column, text in enumerate(grid.rows[header]) if column not in said)
     unread = (text for text in others if any(map(str.isalpha, text)) and tidy(text) not in ORDINALS)
-    return Roster(tuple(map(read, rows)), tuple(unread))
+    return Roster(tuple(map(read, rows)), tuple(unread), tuple(elsewhere))
 
 
 def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:

@@ -494,6 +494,22 @@ def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(tmp_path: Pat
     assert re.search(r'(src|href)="', html) is None
 
 
+def test_students_of_tasks_that_nobody_knows_are_told(tmp_path: Path) -> None:
+    rows = (
+        ["student", "task"],
+        ["A", TASK],
+        ["B", "nau-slider-crnak"],
+        ["C", "scheme-09-shaper"],
+        ["D", "2"],
+        ["E", ""],
+    )
+    asked = check(TASK, roster=write(tmp_path, [*rows], name="roster"), lang="en")
+
+    assert [error.text("en") for error in asked.warnings] == [
+        "left out as students of other tasks, which are not among those of the program: nau-slider-crnak"
+    ]
+
+
 def test_a_form_asks_for_what_the_rubric_asks(tmp_path: Path) -> None:
     rubric = tmp_path / "rubric.toml"
     rubric.write_text('asked = ["V_B", "omega_2"]', encoding="utf-8")

@@ -20,12 +20,14 @@ from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import seldom_collected
 from ...scales.names import by_name, of_its_kinds
+from ...scales.numbers import SHOWN, quote
 from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
 from ..roster import Digits, Entry, Who, collated, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import sheet_id
+from ..shelf import bundled
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, save_form, table_bytes
 from ..task import LocatedError, Task
@@ -142,13 +144,15 @@ class Check(Terms):
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
-        """What a teacher should know of the roster: wrong rows, books and variants that several students have."""
+        """What a teacher should know of the roster: wrong rows, what several students have, who is left out."""
         entries = self.roster.entries if self.roster else ()
         wrong = (problem for entry in entries if (problem := self._problem(entry)) is not None)
         students = ((entry.who, "" if entry.settings else self._variant_of(entry)) for entry in entries)
         possible = 0 if self.request.variant else len(self.request.task.variants)
         groups = of_several_groups(entry.who for entry in entries)
-        return (*wrong, *shared_by_mistake(students, possible), *groups)
+        others = [task for task in (self.roster.elsewhere if self.roster else ()) if task not in bundled()]
+        named = [InputError("roster-elsewhere", tasks=quote(", ".join(others), SHOWN))] if others else []
+        return (*wrong, *shared_by_mistake(students, possible), *groups, *named)
 
     def _problem(self, entry: Entry) -> InputError | None:
         """Return why the row of a student cannot be used, if it cannot: it harms nobody else."""
