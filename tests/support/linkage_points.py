@@ -243,13 +243,18 @@ def l9_arms(case: Judged, sheet: Sheet) -> Faults:
         letters = {letter for t in texts if "," not in t for letter in t.split(" = ")}  # their mm stand in a table
         beside = (cell for row in rows for letter, cell in pairwise(row) if letter in letters)
         printed += [x for cell in beside for x in numbers_of(cell, case.lang)[:1]]
-        lines = [s for s in view.strokes if any(kind == "arm" for kind, _ in s.path) and s.role == "thin"]
-        for line in lines:
-            a, b = line.points
-            yield from unless(_begins(view, a), f"{view.name}: the arm {line.path[-1]} begins nowhere")
+        pieces: dict[str, list[complex]] = {}  # of lines with their letters between
+        for line in view.strokes:
+            if any(kind == "arm" for kind, _ in line.path) and line.role == "thin":
+                pieces.setdefault(str(line.path[-1]), []).extend(line.points)
+        for arm, points in pieces.items():
+            a, b = points[0], points[-1]
+            straight = all(abs(cross((b - a) / abs(b - a), x - a)) < NEAR for x in points)
+            yield from unless(straight, f"{view.name}: the arm {arm} is in pieces that are no line")
+            yield from unless(_begins(view, a), f"{view.name}: the arm {arm} begins nowhere")
             normal = [x for x in view.arrows if abs(cross(x.unit, b - x.on)) < NEAR]
             square = [x for x in normal if abs((x.unit.conjugate() * (b - a)).real) < NEAR * max(1.0, abs(b - a))]
-            yield from unless(bool(square), f"{view.name}: the arm {line.path[-1]} is not normal to a force")
+            yield from unless(bool(square), f"{view.name}: the arm {arm} is not normal to a force")
             yield from unless(
                 any(shows(x, abs(b - a), NEAR) for x in printed), f"{view.name}: {abs(b - a):.2f} mm is not printed"
             )
