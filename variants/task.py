@@ -28,8 +28,7 @@ if TYPE_CHECKING:
     from ..plans.hoist.hoist import Hoist
 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
-_NUMBERED = re.compile(r"([^\W\d]*)(\d{1,9})")  # the id of a variant
-_WHOLE = re.compile(r"(\d{1,9})[.,]0")  # as a spreadsheet may write one that is a number
+_NUMBERED = re.compile(r"([^\W\d]*)(\d{1,9})(?:[.,]0)?")  # the id of a variant; 4.0 is how a spreadsheet may write 4
 _OF_VARIANT = ("", "v", "в")  # letters before its number that only say what it is
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
@@ -201,7 +200,7 @@ class Task:
         """Return the ids of the variants with the number of another id, and its letters where they say more."""
         from .spreadsheets.grid import variant_said  # most are asked for by their own id
 
-        if (one := _NUMBERED.fullmatch(_WHOLE.sub(r"\1", variant_said(said)))) is None:
+        if (one := _NUMBERED.fullmatch(variant_said(said))) is None:
             return []
         letters = latin(one[1]).lower(), one[1].lower()
         found = []

@@ -183,7 +183,8 @@ def test_a_variant_is_meant_by_its_number_however_it_is_written(said: str, ids: 
 
 
 @pytest.mark.parametrize(
-    ("said", "ids"), [("1", ("A1", "B1")), ("C1", ("A1", "B1")), ("K1", ("1",)), ("3", ("1",)), ("1.0.2", ("1",))]
+    ("said", "ids"),
+    [("1", ("A1", "B1")), ("C1", ("A1", "B1")), ("K1", ("1",)), ("3", ("1",)), ("1.0.2", ("1",)), ("1.05", ("15",))],
 )
 def test_a_variant_that_could_be_several_or_none_is_refused(said: str, ids: tuple[str, ...]) -> None:
     task = replace(load_task(TASK), variants={id: Variant(id, {}) for id in ids})
