@@ -8,8 +8,16 @@ import pytest
 import shapely
 
 from kulman import sheet
+from kulman.drawing.formats import STYLES
+from kulman.drawing.gears.action_view import _action_view
+from kulman.drawing.gears.cutting_view import contour_view
 from kulman.drawing.gears.meshing_view import BREAKS
+from kulman.drawing.gears.scene import GearScene
 from kulman.drawing.gears.sheet import _mu_ladder, _near_ladder, _rolled_ladder
+from kulman.drawing.shapes import Line, Pen, Text
+from kulman.drawing.text import lay_out
+from kulman.drawing.words import Words
+from kulman.plans.gears.course import GearCourse
 from kulman.plans.gears.gear import GearPair
 from kulman.plans.gears.solve import solve_gear
 from kulman.plans.gears.teeth import meshing_of
@@ -28,6 +36,7 @@ from kulman.tests.support.gear_points import (
     rows,
     scale,
 )
+from kulman.tests.support.gears import madi
 from kulman.tests.support.readback import polygon, read, read_back
 
 SEED = 1532
@@ -241,6 +250,29 @@ def test_the_contour_holds_the_chosen_shifts_where_the_axes_say() -> None:
     assert sides == {"undercut_1", "undercut_2", "interference_1", "interference_2", "contact_1"}
     # x_1 = 0 would run less than 1 mm beside the side of the window
     assert [abs((s.points[1] - s.points[0]).real) > 1.0 for s in view.lines("axis") if s.dashed] == [True]
+
+
+def scene(format: str, rolled: float = 1e-3, **others: float) -> GearScene:
+    solved = solve_gear(GearPair(), madi(**others))
+    return GearScene(solved, Words.of("en", "nau"), STYLES[format], {}, rolled=rolled)
+
+
+@pytest.mark.parametrize(("z_2", "axes"), [(30.0, {"x_1", "x_2"}), (40.0, {"x_1"})])  # 3.4 and 2.7 mm from the side
+def test_an_axis_of_the_contour_is_told_apart_from_a_side_more_than_3_mm_away(z_2: float, axes: set[str]) -> None:
+    dashed = [s for s in contour_view(scene("A3", z_1=17.0, z_2=z_2)).shapes if isinstance(s, Line)]
+    drawn = [s.b - s.a for s in dashed if s.pen is Pen.AXIS]
+    assert {"x_1" if way.imag == 0.0 else "x_2" for way in drawn} == axes
+
+
+def test_the_number_of_pairs_stands_in_its_zone_where_a_millimetre_is_free_beside_it_else_above() -> None:
+    first, last, count = GearCourse(scene("A1").solved).zones[1]
+    for spare in (2.4, 1.6):
+        width = lay_out(str(count), STYLES["A1"].label).width
+        view = _action_view(scene("A1", rolled=(last - first) / (width + spare)))
+        (number,) = (s for s in view.shapes if isinstance(s, Text) and (s.role, s.name) == ("zone", "2"))
+        (zone,) = (s for s in view.shapes if (getattr(s, "role", ""), getattr(s, "name", "")) == ("zone", f"2_{count}"))
+        top = max(point.imag for shape in zone.shapes for point in shape.points)
+        assert (number.at.imag < top) == (spare > 2.0)
 
 
 SPOILED = [  # one piece of the file of a sheet changed

@@ -449,3 +449,11 @@ def test_scales_of_the_meshing_go_from_natural_size_up_the_series_of_gost_2_302(
     assert found.ratios == tuple(sorted(found.ratios))
     # a segment is missed by so many millimetres of paper, however long it is
     assert found.errors["careful", "c_1"] * found.ratios == pytest.approx(found.errors["careful", "c_1"][0], rel=0.05)
+
+
+@pytest.mark.parametrize(("mm", "drawn"), [(249.9, 249.9), (250.5, 125.25)])
+def test_n1n2_takes_250_mm_at_most_under_the_diagrams_of_sliding(mm: float, drawn: float) -> None:
+    usual = solve_gear(GearPair(), madi()).sizes["l_N1N2"]
+    solved = solve_gear(GearPair(), madi(m=madi()["m"] * 1e-3 * mm / usual))
+
+    assert solved.sizes["l_N1N2"] / solved.quantities["mu_rho"].value == pytest.approx(drawn)
