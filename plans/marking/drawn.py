@@ -173,15 +173,15 @@ class _Search:
     def _lines_there(self, shape: Shape, turn: float, part: float) -> float:
         """Return how many lines of a shape may be there, at a first look: of its usual size, else of any.
 
-        None if it is less than a part of them.
+        0 if it is less than a part of them.
         """
-        whole, found = float(shape.weights.sum()), 0.0
+        most = 0.0  # part of it
         for usually in (True, False):
-            if found < (1.0 - ALL) * whole:
+            if most < 1.0 - ALL:
                 (laid,) = self.laying.lay_all([shape], turn, 0.0, part, usually=usually)
                 if len(laid.worth):
-                    found = max(found, whole * float(laid.parts[laid.worth.argmax()]))
-        return found
+                    most = max(most, float(laid.parts[laid.worth.argmax()]))
+        return most * float(shape.weights.sum())
 
     def _fits(self) -> dict[str, Fit]:
         """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it.
