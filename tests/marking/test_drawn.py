@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.marking.answers import Answer
-from kulman.plans.marking.drawn import DIRECTED, MEASURED, Recognised, recognise
+from kulman.plans.marking.drawn import DIRECTED, MEASURED, Recognised, _laying, _Search, recognise
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.verdicts import mark
@@ -88,6 +88,26 @@ def test_a_plan_lies_where_it_does_whichever_of_its_lines_is_missing() -> None:
 
     assert len(poles) > 3
     assert max(abs(pole - poles[0]) for pole in poles) < NEAR
+
+
+@pytest.mark.parametrize(("degrees", "sense"), [(0.0, 1.0), (9.5, 1.0), (10.5, 0.0), (180.0, -1.0)])
+def test_an_arrowhead_tells_the_sense_of_a_line_that_it_is_turned_by_10_degrees_from(
+    degrees: float, sense: float
+) -> None:
+    sheet = bare(FEW[0])
+    of_plan = tuple(segment for segment in sheet.segments if segment[2] == "velocity")
+    drawing = distorted(of_plan, np.random.default_rng(2), noise=0.0, stray=0, arrowheads=False)
+    ends = [(drawing.place(a, plan), drawing.place(b, plan)) for a, b, plan, arrow in of_plan if arrow]
+    if sense < 0.0:
+        ends = [(b, a) for a, b in ends]
+    heads = [b + 4.0 * cmath.rect(1.0, cmath.phase(a - b) + math.radians(degrees % 180.0)) for a, b in ends]
+    drawn = drawing.drawn
+    tails, tips = np.append(drawn.tails, heads), np.append(drawn.tips, [b for _, b in ends])
+    pointed = Drawn(tails, tips, arrows=np.arange(len(drawn.tails), len(tails)))
+
+    senses = _Search(sheet.key, None, _laying(pointed, sheet.key, {}))._fits()["velocity"].senses
+
+    assert {*senses} == {sense}
 
 
 def test_nothing_is_found_where_nothing_is_drawn() -> None:

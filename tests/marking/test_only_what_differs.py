@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -88,6 +89,19 @@ def test_what_is_clearly_wrong_or_mends_no_faulty_line_is_given_up(task: str) ->
             clearly += some is None
             mended_nothing += kept is not None and again is None
     assert min(clearly, mended_nothing) > 0
+
+
+def test_a_mistake_is_given_up_where_all_that_is_asked_is_a_slip_beside_it() -> None:
+    of = mistakes(QUICK)
+    found = next(one for one in of.signatures if one.broken.place[:2] == ("M20", "V_S3"))
+    answers = [replace(one, value=3.0 * one.value) if one.name == "M_3" else one for one in planted(of, found, 1)]
+    marking = mark(of.key, answers)
+    judged, under, first = Judged(marking.marker, marking.lines), key_of(marking.key, found), str(marking.first_wrong)
+
+    assert first != "M_3"
+    assert next(line for line in marking.lines if line.name == "M_3").verdict.faulty
+    assert judged.under(under, first, [first]) is not None
+    assert judged.under(under, first, ["M_3"]) is None
 
 
 def like(line: Line, other: Line) -> bool:

@@ -17,6 +17,8 @@ from kulman.drawing.linkages.figures.group import zeros
 from kulman.drawing.linkages.ladders import first_scales
 from kulman.drawing.linkages.reading import lettered
 from kulman.drawing.linkages.scene import Scene
+from kulman.drawing.linkages.statement import statements
+from kulman.drawing.shapes import Circle, Group
 from kulman.drawing.words import Words, notations
 from kulman.plans import names
 from kulman.plans.linkages.chain import PLANS, construct
@@ -160,6 +162,17 @@ def told(scene: Scene, beginning: str) -> str:
     """The one line that begins so."""
     (line,) = [text for text in map(plain, lines_of(scene)) if text.startswith(beginning)]
     return line
+
+
+def test_ever_smaller_kinematic_schemes_fill_heights_of_100_80_and_60_mm_at_round_scale_factors() -> None:
+    scene, heights = bundled("scheme-01-compressor"), []
+    for scheme, *_ in statements(scene, ("velocity",), "0", width=120.0):
+        places = {g.name: g.shapes[0] for g in scheme.shapes if isinstance(g, Group) and g.role == "pair"}
+        assert isinstance(places["B"], Circle)
+        heights.append(places["B"].centre.imag)
+
+    assert heights == pytest.approx([scene.solved.point("B").imag / mu for mu in (0.005, 0.006, 0.008)])
+    assert heights == pytest.approx([80.69, 67.24, 50.43], abs=0.01)
 
 
 def test_the_opposite_of_a_length_is_written_as_that_length() -> None:
