@@ -18,6 +18,7 @@ from fontTools.ttLib import TTFont
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from kulman.docs import lettering
 from kulman.drawing import letters
 from kulman.drawing.font import FAMILIES, SCREEN, SLANTED, UPRIGHT, font, web_subset
 from kulman.drawing.page import extent
@@ -290,7 +291,7 @@ def test_letters_that_lean_do_not_run_into_the_mark_behind_them(markup: str) -> 
 @pytest.mark.soak
 @pytest.mark.parametrize(("face", "slanted"), [(UPRIGHT, False), (SLANTED, True)])
 def test_fonts_are_what_the_strokes_give(face: str, slanted: bool) -> None:
-    assert letters.built(slanted) == font(face).data
+    assert lettering.built(slanted) == font(face).data
 
 
 def test_letters_have_the_heights_and_widths_of_the_standard() -> None:
