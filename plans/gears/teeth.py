@@ -321,10 +321,10 @@ class Wheel:
         """Return the outline of neighbouring teeth counter-clockwise, the one in contact in their middle."""
         return self.placed(self.tooth.teeth(count), -0.5 * (count - 1))
 
-    def flank(self, low: float, high: float, turns: float = 0.0, active: bool = True) -> tuple[complex, ...]:
-        """Return the active flank, or the other one, between two radii of curvature, m, from its root on."""
+    def flank(self, low: float, high: float) -> tuple[complex, ...]:
+        """Return the active flank between two radii of curvature, m, from its root on."""
         points = self.tooth.flank(np.linspace(low, high, FLANK))
-        return self.placed(points if (self.side > 0) == active else points.conj(), turns)
+        return self.placed(points if self.side > 0 else points.conj())
 
     def at(self, radius: float, turns: float = 0.0, active: bool = True) -> complex:
         """Return where a flank meets a circle about the wheel's centre, mm."""
