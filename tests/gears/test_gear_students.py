@@ -5,7 +5,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -97,19 +96,8 @@ def test_a_blank_tells_what_is_given_and_no_result(only: str | None) -> None:
     assert not any("1.20" in text or "26.65" in text or "−3.07" in text or "satisfied" in text for text in said)
 
 
-@pytest.mark.parametrize("only", ["sliding", pytest.param("meshing", marks=pytest.mark.soak)])
-def test_every_stage_draws_something_more(only: str) -> None:
-    case = solve_case(TASK, None, None, only, None)
-    sheet = draw_case(case, "en")
-    counts = [len(begun(case, sheet, steps)) for steps in range(max(len(view.stages) for view in sheet.views))]
-    assert all(a < b for a, b in pairwise([*counts, len([*parts(sheet.pages)])]))
-
-
-def test_stages_draw_something_and_leave_what_the_work_comes_to() -> None:
-    views = [view for view in drawn().views if view.stages]
-    assert [view.name for view in views] == ["meshing", "rolling", "action", "sliding"]
-    for view in views:
-        assert {*view.stages} <= {*view.parts} <= {*view.stages, ANSWERS, ""}, view.name
+def test_stages_leave_what_the_work_comes_to() -> None:
+    for view in (view for view in drawn().views if view.stages):
         texts = [(s, part) for s, part in zip(view.shapes, view.parts, strict=True) if isinstance(s, Text)]
         assert ANSWERS not in view.stages
         assert [text for text, part in texts if part == ANSWERS and "=" in text.markup], view.name
@@ -140,13 +128,12 @@ def drawn_by(mark: str) -> str:
 
 
 @pytest.mark.parametrize("lang", [LANGUAGES[0], *SOAKED])
-def test_note_tells_as_many_steps_as_a_handout_has_stages(lang: str) -> None:
+def test_note_tells_the_steps_of_a_handout_with_their_numbers(lang: str) -> None:
     words, scales = whole().words(lang), {"meshing": Scale("mu_l", 0.0005, "m")}
 
     story = whole().kind.story(whole(), scales, words, packaged("kulman.drawing.notes", "texts", lang))
 
     views = [view for view in drawn(lang).views if view.stages]
-    assert all(len(story.steps_of(view)) == len(view.stages) - 1 for view in views)
     assert {key for view in views for key in view.stages.values()} - {""} == {
         key for key in story.texts if re.match(r"gear\.(meshing|rolling|action|sliding)\.", key)
     }
