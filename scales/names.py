@@ -157,16 +157,20 @@ def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:
 
 
 def names_of(
-    argument: str, value: str | Iterable[str | int] | None, kinds: tuple[type, ...] = (str,)
+    argument: str, value: str | Iterable[str | int] | None, kinds: tuple[type, ...] = (str,), once: bool = True
 ) -> tuple[str, ...]:
-    """Return names that are given each alone or several with commas between, each of these `kinds`; none for None."""
+    """Return names that are given each alone or several with commas between, each of these `kinds`; none for None.
+
+    Each stands there `once`, if that is not otherwise.
+    """
     if value is None:
         return ()
     of_kind(argument, value, (str, Iterable), "list[str]")
     items = (value,) if isinstance(value, str) else tuple(value)
     for item in items:
         of_kind(argument, item, kinds, "list[str]")
-    return tuple(dict.fromkeys(one.strip() for item in items for one in str(item).split(",") if one.strip()))
+    names = [one.strip() for item in items for one in str(item).split(",") if one.strip()]
+    return tuple(dict.fromkeys(names) if once else names)
 
 
 def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -24,7 +24,7 @@ from .spreadsheets.grid import (
     symbol,
     tidy,
 )
-from .task import LocatedError, Task
+from .task import NUMBERED, LocatedError, Task
 
 WHO = ("student", "group", "book", "number", "email")
 KEYS = ("number", "book", "email", "student")  # by which a student is found, the surest first
@@ -35,7 +35,6 @@ _MEANT = {"task": SCHEME, "variant": VARIANT}  # by what a column of such a name
 INITIALS = 3  # letters that may stand for a name
 MOST = 9  # digits that have a meaning
 _SHORTENED = re.compile(r"\d[.,]\d*E\+?\d+", re.IGNORECASE)  # 1,23E+11: what a spreadsheet leaves of a long number
-_FLOAT = re.compile(r"(\d+)[.,]0")  # 417.0: what a table of numbers makes of 417
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +57,7 @@ class Who:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One student of the roster: the variant, empty where the record book decides, and other values for givens.
+    """One student of the roster: the variant, empty where neither row nor record book says it, and other data.
 
     `problem` is why the row cannot be used, where others can be without it; `task` is the id of the student's task.
     """
@@ -69,10 +68,6 @@ class Entry:
     place: str
     problem: InputError | None = None
     task: str = ""
-
-    def variant_of(self, task: Task, digits: int | str = 1) -> str:
-        """Return the variant, that of the record book where none is written; empty where neither is."""
-        return self.variant or (variant_of_book(task, self.who.book, digits) if self.who.book else "")
 
 
 @dataclass(frozen=True)
@@ -188,14 +183,15 @@ def _same_person(one: str, other: str) -> bool:
 class _Columns:
     """A grid with what its columns hold: `about` of a student, and givens with their units.
 
-    With `whole` each row must say which variant a student has; `groups` are those of the titles over rows.
+    The rows are those `of` one task, of all without it, which then must say which variant a student has; `groups` are
+    those of the titles over rows.
     """
 
     grid: Grid
     about: Mapping[str, int]
     givens: Mapping[int, tuple[str, str]]
     schemes: Schemes
-    whole: bool
+    of: Task | None
     groups: Mapping[int, str]
 
     def said(self, row: int) -> dict[str, str]:
@@ -203,26 +199,35 @@ class _Columns:
         said = {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
         return said if said.get("group") else said | {"group": self.groups[row]}
 
+    def other(self, row: int) -> str:
+        """Return the other task than the one that is asked for that a student has; nothing where it is that one."""
+        said = self.said(row)
+        name, book = said.get("task", ""), said.get("book", "")
+        try:
+            with _located(self, row, "task"):
+                found = self.schemes.of(name, book).id
+        except InputError as error:  # a task of another class; or a wrong record book, which may be anybody's
+            if error.key == "roster-schemes":
+                raise
+            found = name
+        return found if self.of and found != self.of.id else ""
 
-def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Roster:
+
+def read_roster(file: str | Path, schemes: Task | Schemes, each: bool = False, of: Task | None = None) -> Roster:
     """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
 
-    Where it is `of` the one task of the class, students to whom a column `task` gives another one are left out; of
-    several each student must have a task and a variant. What is wrong is said with its cell; with `each` a row that is
-    wrong is the problem of its student alone.
+    Students of other tasks than that it is read `of` are left out; without one, each must have a task and a variant.
+    What is wrong is said with its cell; with `each` a row that is wrong is the problem of its student alone.
     """
+    if isinstance(schemes, Task):
+        of, schemes = schemes, Schemes((schemes,), numbered=False)
     grid = read_grid(file)
     named = (len(cells) > 1 and not NAMED.isdisjoint(map(about_kind, cells)) for cells in grid.rows[:LOOKED_AT])
     header = next((row for row, is_header in enumerate(named) if is_header), None)
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
-    columns = _columns(grid, header, of)
-    rows, elsewhere = list(columns.groups), dict[str, None]()
-    if isinstance(of, Task):
-        tasks = {row: columns.said(row).get("task", "") for row in rows}
-        rows = [row for row, task in tasks.items() if task in ("", of.id) or task.isdigit()]  # a number is any
-        elsewhere = dict.fromkeys(task for row, task in tasks.items() if row not in rows)
-        columns = replace(columns, about={kind: column for kind, column in columns.about.items() if kind != "task"})
+    columns = _columns(grid, header, schemes, of)
+    others = {row: columns.other(row) for row in columns.groups}
 
     def read(row: int) -> Entry:
         try:
@@ -233,14 +238,14 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
             return Entry(Who.of(columns.said(row)), "", {}, grid.place(row), error)
 
     said = {*columns.about.values(), *columns.givens}
-    others = (text for column, text in enumerate(grid.rows[header]) if column not in said)
-    unread = (text for text in others if any(map(str.isalpha, text)) and tidy(text) not in ORDINALS)
-    return Roster(tuple(map(read, rows)), tuple(unread), tuple(elsewhere))
+    unsaid = (text for column, text in enumerate(grid.rows[header]) if column not in said)
+    unread = (text for text in unsaid if any(map(str.isalpha, text)) and tidy(text) not in ORDINALS)
+    entries = (read(row) for row, other in others.items() if not other)
+    return Roster(tuple(entries), tuple(unread), tuple(dict.fromkeys(filter(None, others.values()))))
 
 
-def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
+def _columns(grid: Grid, header: int, schemes: Schemes, of: Task | None) -> _Columns:
     """Return what the columns hold, by the words over them."""
-    schemes = of if isinstance(of, Schemes) else Schemes((of,))
     known = tuple(dict.fromkeys(name for task in schemes.tasks for name in task.givens))
     symbols = {symbol(name): name for name in known}
     about: dict[str, int] = {}
@@ -254,7 +259,7 @@ def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
         elif part is not None and "_" in text:
             error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
             raise LocatedError(grid.place(header, column), error)
-    return _Columns(grid, about, givens, schemes, isinstance(of, Schemes), dict(grid.students(header)))
+    return _Columns(grid, about, givens, schemes, of, dict(grid.students(header)))
 
 
 def _entry(columns: _Columns, row: int) -> Entry:
@@ -265,8 +270,12 @@ def _entry(columns: _Columns, row: int) -> Entry:
         task = schemes.of(said.get("task", ""), who.book)
     variant = said.get("variant", "")
     with _located(columns, row, "variant"):
-        if variant or columns.whole:
-            variant = schemes.variant_of(task, variant, who.book, bool(said.get("task")))
+        if variant:
+            variant = task.variant(variant).id
+        elif who.book:
+            variant = variant_of_book(task, who.book, schemes.digits_of(said.get("task", "")))
+        if not variant and columns.of is None:
+            raise InputError("batch-no-variant", known=quote(", ".join(task.variants), SHOWN))
     settings = dict(_settings(columns, row, task))
     return Entry(who, variant, settings, columns.grid.place(row), task=task.id)
 
@@ -333,8 +342,8 @@ class Digits:
             return None
         if _SHORTENED.fullmatch(book.strip()):
             raise InputError("roster-book-shortened", text=quote(book))
-        whole = _FLOAT.fullmatch(book.strip())
-        found = re.sub(r"\D", "", latin(whole[1] if whole else book))[-len(self.meanings) :]
+        whole = NUMBERED.fullmatch(book.strip())
+        found = re.sub(r"\D", "", latin(whole[2] if whole else book))[-len(self.meanings) :]
         if len(found) < len(self.meanings):
             raise InputError("roster-book", text=quote(book), n=len(self.meanings))
         return int("".join(digit for digit, what in zip(found, self.meanings, strict=True) if what == meaning))
@@ -369,20 +378,23 @@ class Schemes:
     """The tasks of a class, the first of which is scheme 1, and how a record book chooses one of them.
 
     Without `digits` the last one is the variant; of several tasks, where a student's is not named, the last but one,
-    and the last is the scheme.
+    and the last is the scheme. Where they are not `numbered`, nothing but its id tells which one a student has.
     """
 
     tasks: tuple[Task, ...]
     digits: Digits | None = None
+    numbered: bool = True
 
     def of(self, said: str, book: str) -> Task:
         """Return the task that a roster names by id or number, else that of the record book, else the only one."""
+        digits = self.digits_of(said)
+        if not self.numbered and (said.isdigit() or (not said and SCHEME in digits.meanings)):
+            raise InputError("roster-schemes")
         for number, task in enumerate(self.tasks, 1) if said else ():
             if said.strip() in (task.id, str(number)):
                 return task
         if said:
             raise unknown("task-other", said, self.ids)
-        digits = self._digits(named=False)
         scheme = digits.number(SCHEME, book) if book else None
         if scheme is not None:
             scheme = scheme or digits.top(SCHEME)
@@ -393,17 +405,9 @@ class Schemes:
             raise InputError("batch-no-task", known=quote(", ".join(ids), SHOWN))
         return self.tasks[0]
 
-    def variant_of(self, task: Task, said: str, book: str, named: bool = False) -> str:
-        """Return the variant that a roster names, as it may have the task, else that of the book; there must be one."""
-        if said:
-            return task.variant(said).id
-        found = variant_of_book(task, book, self._digits(named)) if book else ""
-        if not found:
-            raise InputError("batch-no-variant", known=quote(", ".join(task.variants), SHOWN))
-        return found
-
-    def _digits(self, named: bool) -> Digits:
-        return self.digits or Digits.of(VARIANT if named or len(self.tasks) == 1 else f"{VARIANT},{SCHEME}")
+    def digits_of(self, said: str) -> Digits:
+        """Return what the digits of a record book are for, where a roster has `said` so of the task."""
+        return self.digits or Digits.of(VARIANT if said or len(self.tasks) == 1 else f"{VARIANT},{SCHEME}")
 
     @property
     def ids(self) -> Sequence[str]:

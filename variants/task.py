@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..plans.hoist.hoist import Hoist
 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
-_NUMBERED = re.compile(r"([^\W\d]*)(\d{1,9})(?:[.,]0)?")  # the id of a variant; 4.0 is how a spreadsheet may write 4
+NUMBERED = re.compile(r"([^\W\d]*)(\d{1,99})(?:[.,]0)?")  # letters and a number; 4.0 is how a spreadsheet may write 4
 _OF_VARIANT = ("", "v", "в")  # letters before its number that only say what it is
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
@@ -200,12 +200,12 @@ class Task:
         """Return the ids of the variants with the number of another id, and its letters where they say more."""
         from .spreadsheets.grid import variant_said  # most are asked for by their own id
 
-        if (one := _NUMBERED.fullmatch(variant_said(said))) is None:
+        if (one := NUMBERED.fullmatch(variant_said(said))) is None:
             return []
         letters = latin(one[1]).lower(), one[1].lower()
         found = []
         for name in self.variants:
-            if (own := _NUMBERED.fullmatch(name)) and int(own[2]) == int(one[2]):
+            if (own := NUMBERED.fullmatch(name)) and int(own[2]) == int(one[2]):
                 has = latin(own[1]).lower(), own[1].lower()
                 if not one[1] or has[0] == letters[0] or {has[1], letters[1]} <= {*_OF_VARIANT}:
                     found.append(name)
@@ -216,7 +216,7 @@ class Task:
         """The ids of the variants by the one number in each, `7`, `V07`; those without one are left out."""
         names = dict[int, str]()
         for name in self.variants:
-            if own := _NUMBERED.fullmatch(name):
+            if own := NUMBERED.fullmatch(name):
                 names.setdefault(int(own[2]), name)
         return names
 

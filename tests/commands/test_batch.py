@@ -440,11 +440,12 @@ def test_each_task_has_a_key_that_is_marked_right(tmp_path: Path) -> None:
     file, out = roster(tmp_path, "A;71", "B;82", "C;03", "D;51", head=BOOKS), tmp_path / "out"
     batch(SCHEMES, file, out, kinds=["svg"], only="velocity", jobs=1, lang="en")
     for task, students in zip(SCHEMES, ("AD", "B", "C"), strict=True):
-        asked = check(task, roster=file, digits="variant,scheme", only="velocity", lang="en")
+        asked = check(task, roster=file, schemes=SCHEMES, only="velocity", lang="en")
 
         results = asked.mark_all(asked.read(str(out / f"key-{task}.csv")), jobs=1)
 
         assert [(result.who.student, result.mark) for result in results] == [(student, 100.0) for student in students]
+        assert [entry.who.student for entry in asked.roster.entries] == [*students]
         assert [result.variant for result in results] == [{"A": "7", "D": "5", "B": "8", "C": "0"}[s] for s in students]
 
 
@@ -495,10 +496,29 @@ def test_data_of_ones_own_are_those_of_ones_own_task(tmp_path: Path, tasks: tupl
 
 
 def test_marking_takes_only_students_of_its_task(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
-    rows = (f"A;{SCHEMES[0]};1", f"B;{SCHEMES[1]};no such", "C;3;2", "D;;4")
-    file = roster(tmp_path, *rows, head="student;task;variant")
+    rows = (f"A;{SCHEMES[0]};1;", f"B;{SCHEMES[1]};no such;", "C;3;2;", "D;;4;51", "E;1;5;", "F;;;42", "G;9;1;")
+    file = roster(tmp_path, *rows, head="student;task;variant;record book")
 
-    assert [entry.who.student for entry in read_roster(file, tasks[0]).entries] == ["A", "C", "D"]
+    read = [read_roster(file, Schemes(tasks), each=True, of=task) for task in tasks]
+
+    assert ["".join(entry.who.student for entry in one.entries) for one in read] == ["ADE", "BF", "C"]
+    assert {one.elsewhere[-1] for one in read} == {"9"}
+    assert [entry.variant for entry in read[0].entries] == ["1", "4", "5"]
+
+
+@pytest.mark.parametrize(
+    ("rows", "digits"), [("A;2;3;51", None), (f"A;{SCHEMES[0]};;51\nB;;;52", "variant,scheme")], ids=["number", "book"]
+)
+def test_a_number_is_a_task_only_where_the_tasks_are_listed(tmp_path: Path, rows: str, digits: str | None) -> None:
+    file = roster(tmp_path, rows, head="student;task;variant;record book")
+
+    with pytest.raises(InputError, match="schemes TASK") as refused:
+        check(SCHEMES[0], roster=file, digits=digits)
+    with pytest.raises(InputError, match="in this class"):
+        check(TASK, roster=file, digits=digits, schemes=SCHEMES)
+
+    assert "B2" in str(refused.value) or "D3" in str(refused.value)
+    assert check(SCHEMES[0], roster=file, digits=digits, schemes=SCHEMES, lang="en").roster
 
 
 def test_a_changed_task_changes_only_its_own_students(tmp_path: Path) -> None:

@@ -31,7 +31,7 @@ from kulman.variants.marking.keyed import data_said, data_text, read_rubric
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import report_html
 from kulman.variants.marking.result import result_of
-from kulman.variants.roster import Digits, Schemes, read_roster, variant_of_book
+from kulman.variants.roster import read_roster, variant_of_book
 from kulman.variants.sheets import drawing_of, same_id, sheet_id, variant_of_id
 from kulman.variants.spreadsheets.files import read_grid
 
@@ -433,12 +433,6 @@ def test_a_record_book_gives_the_variant() -> None:
         assert variant_of_book(load_task(TASK), book, digits) == variant
     with pytest.raises(InputError, match="at least so many digits: 1"):
         variant_of_book(load_task(TASK), "АТ")
-    hoists = Schemes((load_task("karpenko-hoist"),), Digits.of(1))
-    assert hoists.variant_of(hoists.tasks[0], "4", "") == "V04"
-    schemes = Schemes((load_task(TASK),), Digits.of(1))  # of a class that is drawn
-    assert schemes.variant_of(schemes.tasks[0], "", "АТ-2023/417") == "7"
-    with pytest.raises(InputError, match="record book"):
-        schemes.variant_of(schemes.tasks[0], "", "")
 
 
 def test_a_roster_gives_variants_and_own_data(tmp_path: Path, run: Run) -> None:

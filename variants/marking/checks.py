@@ -19,18 +19,18 @@ from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import seldom_collected
-from ...scales.names import by_name, of_its_kinds
+from ...scales.names import by_name, names_of, of_its_kinds, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
-from ..roster import Digits, Entry, Who, collated, of_several_groups, read_roster, shared_by_mistake
+from ..roster import Digits, Entry, Schemes, Who, collated, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import sheet_id
 from ..shelf import bundled
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, save_form, table_bytes
-from ..task import LocatedError, Task
+from ..task import Task
 from .class_page import PAGE, ClassPage
 from .keyed import DATA, PLANS, asked_of, class_header, columns_of, data_text, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
@@ -87,7 +87,7 @@ class Check(Terms):
             for entry in self.roster.entries:  # the sheet id is for them to copy
                 alone = (f"{name} = {value}" for name, value in entry.settings.items())
                 data = "; ".join(filter(None, (shared, *alone)))
-                told = (*(getattr(entry.who, name) for name in who[:4]), self._variant_of(entry), "")
+                told = (*(getattr(entry.who, name) for name in who[:4]), entry.variant, "")
                 rows.append((*told, *[data] * len(own)))
             bold, frozen = [0], 1
         else:
@@ -118,8 +118,7 @@ class Check(Terms):
         if self.roster is not None and max(often.values(), default=1) > 1:
             for entry in self.roster.entries:
                 with suppress(KulmanError):  # whose data are none of the task: told where the student is marked
-                    variant = self._variant_of(entry)
-                    sheets.setdefault(sheet_id(self.request.task, variant, entry.settings), []).append(entry)
+                    sheets.setdefault(sheet_id(self.request.task, entry.variant, entry.settings), []).append(entry)
         return [self._named(one, sheets if often[one.source] > 1 else {}) for one in found]
 
     def _named(self, answers: Answers, sheets: Mapping[str, Sequence[Entry]]) -> Answers:
@@ -146,25 +145,13 @@ class Check(Terms):
     def warnings(self) -> tuple[InputError, ...]:
         """What a teacher should know of the roster: wrong rows, what several students have, who is left out."""
         entries = self.roster.entries if self.roster else ()
-        wrong = (problem for entry in entries if (problem := self._problem(entry)) is not None)
-        students = ((entry.who, "" if entry.settings else self._variant_of(entry)) for entry in entries)
+        wrong = (entry.problem for entry in entries if entry.problem is not None)
+        students = ((entry.who, "" if entry.settings else entry.variant) for entry in entries)
         possible = 0 if self.request.variant else len(self.request.task.variants)
         groups = of_several_groups(entry.who for entry in entries)
         others = [task for task in (self.roster.elsewhere if self.roster else ()) if task not in bundled()]
         named = [InputError("roster-elsewhere", tasks=quote(", ".join(others), SHOWN))] if others else []
         return (*wrong, *shared_by_mistake(students, possible), *groups, *named)
-
-    def _problem(self, entry: Entry) -> InputError | None:
-        """Return why the row of a student cannot be used, if it cannot: it harms nobody else."""
-        try:
-            entry.variant_of(self.request.task, self.digits)
-        except InputError as error:
-            return LocatedError(entry.place, error)
-        return entry.problem
-
-    def _variant_of(self, entry: Entry) -> str:
-        """Return the variant of a student by the roster; empty where it says none, or a wrong one."""
-        return "" if self._problem(entry) else entry.variant_of(self.request.task, self.digits)
 
     def ordered(self, answers: Iterable[Answers]) -> list[Answers]:
         """Return answers in the order of the roster; those of strangers, and all without one, by their names."""
@@ -185,8 +172,7 @@ class Check(Terms):
         for one, result in zip(answers, results, strict=True):
             entry = self.entry_of(one)
             (strangers if entry is None else found.setdefault(id(entry), [])).append(result)
-        absent = {id(one): replace(one, variant=self._variant_of(one)) for one in self.roster.entries}
-        lines = (found.get(one, [entry]) for one, entry in absent.items())
+        lines = (found.get(id(entry), [entry]) for entry in self.roster.entries)
         return [*(line for several in lines for line in several), *strangers]
 
     def mark(self, answers: Answers | Mapping[str, Quantity | str | float]) -> Report:
@@ -248,7 +234,8 @@ def check(
     rubric: PathLike | None = None,
     directions: str | None = None,
     roster: PathLike | None = None,
-    digits: int | str = 1,
+    schemes: Wanted = None,
+    digits: int | str | None = None,
     own: bool = False,
     notation: str | None = None,
     lang: str | None = None,
@@ -270,9 +257,11 @@ def check(
         `required`: a vector without its direction, a moment or an angular velocity without its sense is worth half;
         `optional`: what is said of them is compared; `ignored`: sizes alone are. In the place of what the rubric says;
         without either `optional`.
-    digits : int or str
+    schemes : str or sequence of str, optional
+        The tasks of the class in their order, ids or files, where the roster or the record book gives their numbers.
+    digits : int or str, optional
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
-        for, such as `"variant,scheme"`.
+        for, such as `"variant,scheme"`, which is usual where the roster names none of several `schemes`.
     own : bool
         Make reports for students, in which no right number stands.
     format : str, optional
@@ -292,7 +281,10 @@ def check(
     wanted = None if variant is None else of.variant(variant).id
     if format is not None:
         format_named(format)
-    Digits.of(digits)
+    of_class = tuple(map(load_task, names_of("schemes", schemes, once=False)))
+    tasks = Schemes(of_class or (of,), None if digits is None else Digits.of(digits), bool(of_class))
+    if of.id not in tasks.ids:
+        raise unknown("task-other", of.id, tasks.ids)
     plans, language = None if only is None else plans_wanted(only, of), "en" if lang is None else lang
     request = Request(of, wanted, by_name("set", set), plans, by_name("scales", scales), notation, language, format)
     unformatted = replace(request, variant=fullest(request), format=None)  # the same is asked on every format
@@ -301,11 +293,11 @@ def check(
     others = frozenset(asked_of(whole).names).difference(asked.names)
     asked = replace(asked, others=others, unasked=frozenset(whole.quantities).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
-    students = None if roster is None else read_roster(os.fspath(roster), of, each=True)
+    students = None if roster is None else read_roster(os.fspath(roster), tasks, each=True, of=of)
     problems = [entry.problem for entry in students.entries] if students is not None else []
     if problems and problems[0] is not None and all(problems):  # the list of another task
         raise problems[0]
-    return Check(request, marking, asked, students, digits, own)
+    return Check(request, marking, asked, students, tasks.digits_of(""), own)
 
 
 @dataclass(frozen=True, slots=True)

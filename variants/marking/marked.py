@@ -20,7 +20,7 @@ from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ..case import Request, Settings, plans_wanted
 from ..crew import digest_of
-from ..roster import Entry, Roster, variant_of_book
+from ..roster import Digits, Entry, Roster, variant_of_book
 from ..sheets import same_id, sheet_id, task_of_id, variant_of_id
 from ..shelf import bundled
 from ..task import LocatedError, Task
@@ -56,7 +56,7 @@ class Terms:
     rubric: Rubric
     asked: Asked
     roster: Roster | None = None
-    digits: int | str = 1
+    digits: int | str | Digits = 1
     own: bool = False
     photographs: Path | None = None
 
