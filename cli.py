@@ -202,6 +202,7 @@ def _check(file: str, as_json: bool) -> int:
 @click.option("--condition", is_flag=True)
 @click.option("--hand", shell_complete=helping.completing(lambda ctx: HANDS))
 @console.sized()
+@console.of_norm
 @console.output(".solution")
 @console.as_json
 def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:

@@ -39,7 +39,7 @@ _KINDS: dict[str, tuple[type, ...]] = {  # of the parts of what a signature says
 }
 
 
-def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> UnknownNameError:
+def unknown(key: str, asked: object, known: Iterable[str], also: Iterable[str] = (), **data: Any) -> UnknownNameError:
     """Return the error for a name that is not in `known`: with the name that was meant, or with all there are.
 
     Parameters
@@ -50,8 +50,11 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Unkno
         What was asked for; from Python it need not even be a text.
     known : iterable of str
         The names there are.
+    also : iterable of str
+        Others that may be meant, and are not listed.
     """
-    names, text = list(known), str(asked)
+    listed, text = list(known), str(asked)
+    names = [*listed, *also]
     data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
     if text != latin(text) and latin(text).casefold() in map(str.casefold, names):
         return cyrillic(text)
@@ -63,8 +66,8 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Unkno
         only = having if len(having) == 1 else []
         for meant in folded or turned or only or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
             return UnknownNameError(f"{key}-like", text=quote(text), like=Written(meant), **data)
-    names.sort(key=lambda name: len(text) < 3 or text.casefold() not in name.casefold())  # shaper: first what has it
-    shown = ", ".join(names)
+    listed.sort(key=lambda name: len(text) < 3 or text.casefold() not in name.casefold())  # shaper: first what has it
+    shown = ", ".join(listed)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST].rpartition(', ')[0]}, …"
     return UnknownNameError(key, text=quote(text), known=Written(shown or "—"), **data)
 

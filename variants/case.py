@@ -20,7 +20,7 @@ from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
 from ..scales.errors import LANGUAGES, InputError, Written
 from ..scales.givens import Bound, Described, Givens
-from ..scales.names import all_known, by_name, names_of, of_kind, unknown
+from ..scales.names import by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
 from ..scales.packaged import packaged
 from ..scales.scale import AS_INSIDE, Chooser, Choosers, Display, Scale, Segment, chooser, segment_symbol
@@ -53,6 +53,8 @@ Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pa
 Answer = TypeVar("Answer", bound=Solved)
 LINE = 2000  # letters of a command that a message names
 WIDTH = 170.0  # mm of lines of text of a card
+# options by which letters and frames take other room on a sheet, so that its scale factors may be others
+_PRINTED = {"notation": "--notation", "language": "--lang", "norm": "--norm", "lettering": "--lettering"}
 PARTS = (1.0, 0.8, 0.5, 0.4, 0.2)  # of its usual size that the picture of a card has
 
 
@@ -111,7 +113,9 @@ class Case(Request):
         ]
         said = [part for option, (name, value) in own for part in (option, f"{name}={as_text(value)}")]
         only = [] if self.only is None else ["--only", ",".join(self.plans)]
-        words = "kulman", verb, self.task.file or self.task.id, "-v", self.variant, *said, *only, *options
+        how = (one for one in fields(Request) if one.name in _PRINTED and getattr(self, one.name) != one.default)
+        printed = (part for one in how for part in (_PRINTED[one.name], getattr(self, one.name)))
+        words = "kulman", verb, self.task.file or self.task.id, "-v", self.variant, *said, *only, *printed, *options
         return quote(shlex.join(words), LINE)
 
     @property
@@ -538,16 +542,19 @@ def positions_of(value: int, most: int | None = None) -> int:
 def plans_wanted(value: Wanted, task: Task) -> tuple[str, ...]:
     """Return the plans that `only` names, each alone or several with commas between; all of the task for none.
 
-    They come in the order of the work, however they are named: reports name them in the language of their reader.
+    They come in the order of the work, however they are named: reports name them in the language of their reader. One
+    that the task does not have of itself may be asked for, too; of one that there is not, its own are told.
     """
     if value is None:
         return task.plans
     of_kind("only", value, (str, Iterable), "list[str]")
     items = (value,) if isinstance(value, str) else tuple(value)
     plans, known = names_of("only", items), kind_of(task.kind).plans
-    if not {*plans}.issubset(known):
+    if not plans or not {*plans}.issubset(known):
         texts = [packaged(f"{Kind.home}.drawing", "texts", language) for language in LANGUAGES]
         said = {text[key].casefold(): plan for text in texts for plan in known if (key := f"hand.plan.{plan}") in text}
         plans = tuple(said.get(name.casefold(), name) for name in plans)
-    all_known("plan-unknown", plans or items[:1], known)
+        for name in plans or items[:1]:
+            if name not in known:
+                raise unknown("plan-unknown", name, task.plans, (*known, *said))
     return tuple(plan for plan in known if plan in plans) or task.plans

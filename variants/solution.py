@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from ..drawing.formats import format_named
+from ..drawing.formats import Norm, format_named
 from ..drawing.words import Words
 from ..plans.quantities import Quantity, measured
 from ..plans.solved import Check, Solved
@@ -239,6 +239,8 @@ def solve(
     condition: bool = False,
     hand: str | Hand | None = None,
     format: str | None = None,
+    norm: Norm = "gost",
+    lettering: str = "gost",
 ) -> Solution:
     """Solve one variant of a task.
 
@@ -262,8 +264,10 @@ def solve(
         Who draws: `cad`, `careful`, `normal`, `lenient`, or one's own standard deviations of marks, directions and
         readings, `"0.2 mm, 0.5 deg, 0.2 mm"`. Then `drawing` says for each quantity where 95 % of drawings lie.
     format : str, optional
-        `A4`, `A3`, `A2`, `A1`: the scale factors are those drawn on the sheet of this format. Without it they, and the
-        format, follow from the extents of the plans, as those of the sheet do.
+        `A4`, `A3`, `A2`, `A1`: the scale factors are those drawn on the sheet of this format. Without it nothing is
+        drawn: they, and the format, follow from the extents of the plans; a sheet that finds no room so says others.
+    norm, lettering
+        As for `sheet`, where a format is said.
 
     Returns
     -------
@@ -281,7 +285,8 @@ def solve(
     2.7614
     """
     language = "uk" if lang is None else lang  # of the sheet on which is drawn, where nothing is said
-    asked = Request(load_task(task), variant, set, only, scales, notation, language, format)
+    how = set, only, scales, notation, language, format, norm
+    asked = Request(load_task(task), variant, *how, lettering=lettering)
     found = solution_of(asked, condition, hand)
     return found if lang is not None else replace(found, words=found.words.speaking("en"))
 

@@ -202,6 +202,18 @@ def test_plans_are_named_one_by_one_or_with_commas(only: Any) -> None:
     assert "forces_23" not in views
 
 
+@pytest.mark.parametrize(
+    ("said", "meant"), [("скорость", "скорости"), ("швидкість", "швидкості"), ("velocitys", "velocity")]
+)
+def test_a_plan_that_there_is_not_is_told_with_those_of_the_task(said: str, meant: str) -> None:
+    with pytest.raises(KulmanError, match=rf"did you mean '{meant}'\?"):
+        kulman.sheet(TASK, only=said)
+    with pytest.raises(KulmanError, match=r"known are: structure, position, velocity, acceleration, forces, lever$"):
+        kulman.sheet(TASK, only="nonsense")
+    with pytest.raises(KulmanError, match=r"known are: diagrams, sizes, profile, pressure$"):
+        kulman.sheet("madi-cam", only=said)
+
+
 def test_a_variant_may_be_a_number_and_a_task_one_that_has_been_read(solution: Solution) -> None:
     again = kulman.solve(kulman.load_task(TASK), 3)  # type: ignore[arg-type]
 

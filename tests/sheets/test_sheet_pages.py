@@ -112,7 +112,7 @@ def test_the_command_that_a_sheet_names_shows_its_numbers(drawn: Any, run: Run, 
     file = tmp_path / "my own.toml"
     file.write_text(bundled_text("nau-slider-crank"), encoding="utf-8")
     own = {"set": {"l_OA": 45, "phi": (50.0, "deg")}, "scales": {"pa": "60 mm"}, "only": ["velocity", "forces"]}
-    sheet = drawn(file, "7", format="A4", **own)
+    sheet = drawn(file, "7", format="A4", norm="iso", lettering="dejavu", lang="en", **own)
 
     [warning] = [warning for warning in sheet.warnings if warning.key == "scales-changed"]
     for language in LANGUAGES:
