@@ -381,9 +381,11 @@ def test_a_form_of_a_class_carries_the_data_that_students_have(tmp_path: Path, s
     for row, data in zip(rows[1:], ({"phi": "50 deg"}, {}), strict=True):
         row[rows[0].index("V_B, м/с")] = f"{abs(solve(TASK, '3', set=shared | data)['V_B'].value):.4g}"
     file, asked = str(write(tmp_path, rows)), check(TASK, lang="en")
+    told = [row[rows[0].index("власні дані")] for row in rows[1:]]
 
     found = [asked.mark(one).marked for one in asked.read(file)]
 
+    assert told == (["phi = 50 °; l_OA = 55 мм", "l_OA = 55 мм"] if shared else ["phi = 50 °", ""])
     assert [line.verdict for one in found for line in one.marking.answered] == ["right", "right"]
     assert [any(note.key == "marked-data" for note in one.notes) for one in found] == [True, bool(shared)]
 

@@ -79,14 +79,15 @@ class Check(Terms):
         """
         task, language = self.request.task, self.request.language
         if self.roster is not None:
-            key = Desk(self).keyed(fullest(self.request), {})
-            shared = data_text(key.solution.case, self.request.settings or {})
+            key, shared = Desk(self).keyed(fullest(self.request), {}), self.request.settings or {}
             own = [DATA] if shared or any(entry.settings for entry in self.roster.entries) else []
             who = ("student", "group", "book", "number", "variant", "sheet", *own)
             rows = [class_header(key, who, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
-                alone = (f"{name} = {value}" for name, value in entry.settings.items())
-                data = "; ".join(filter(None, (shared, *alone)))
+                settings, data = {**shared, **entry.settings}, ""
+                with suppress(KulmanError):  # told where the student is marked
+                    asked = replace(self.request, variant=entry.variant or None, settings=settings)
+                    data = data_text(asked.case(), settings) if settings else ""
                 told = (*(getattr(entry.who, name) for name in who[:4]), entry.variant, "")
                 rows.append((*told, *[data] * len(own)))
             bold, frozen = [0], 1
