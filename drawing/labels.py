@@ -137,7 +137,7 @@ class Scene:
         self.high = x.max(axis=1) + w.hw + about + 1j * (y.max(axis=1) + w.hh + about)
         self._leads: dict[tuple[int, bool, bool], tuple[_Ways, Points, Reals, Flags]] = {}
         self._bent: dict[int, tuple[_Ways, Points, Reals, Points]] = {}
-        self._along: dict[tuple[int, int], tuple[_Ways, Points, complex]] = {}
+        self._along: dict[tuple[int, int, Segment | None], tuple[_Ways, Points, complex]] = {}
 
     def leads(self, i: int, afield: bool, cross: bool) -> tuple[_Ways, Points, Reals, Flags]:
         """Return leaders of label i whose ends cover nothing, shape (4, K), their costs, and which cross lines.
@@ -146,7 +146,8 @@ class Scene:
         """
         key = i, afield, cross
         if key not in self._leads:
-            leads, cost = self.wanted.leads(i, np.append(spots.FAR, spots.AFIELD) if afield else spots.FAR)
+            lengths = np.append(spots.FAR, spots.AFIELD) if afield else spots.FAR
+            leads, cost = self.wanted.leads(i, lengths, spots.STEEP, self._starts(i))
             half = float(self.wanted.hw[i]), float(self.wanted.hh[i])
             few = _cheapest(cost, self.around.free(leads[0], *half, afield).nonzero()[0])
             cost[few] += spots.THIN * ~self.around.fine.free(leads[0, few], complex(*half), self.gap / 2)
@@ -169,7 +170,7 @@ class Scene:
         """
         if i not in self._bent:
             around, half = self.around, (float(self.wanted.hw[i]), float(self.wanted.hh[i]))
-            (_, knee, start, way), cost = self.wanted.leads(i, spots.KNEES, spots.ROUND_ABOUT)
+            (_, knee, start, way), cost = self.wanted.leads(i, spots.KNEES, spots.ROUND_ABOUT, self._starts(i))
             few = _cheapest(cost, (~around.barring.barred(start, knee)).nonzero()[0])
             few = few[:: -(-len(few) // SOME) or 1]  # not only the shortest
             few = few[around.crossed(knee[few], start[few] + spots.TOUCH * way[few]) == 0]
@@ -181,6 +182,10 @@ class Scene:
             ways = self._ways(i, at, (knee + spots.TOUCH * way, head), (start, knee))
             self._bent[i] = ways, leads[:, left], costs[left], start
         return self._bent[i]
+
+    def _starts(self, i: int) -> Reals:
+        """Return at which parts of its segment leaders of label i may start: an optional one's runs past its line."""
+        return spots.STARTS[spots.STARTS <= 0.5] if self.requests[i].optional else spots.STARTS
 
     def _ways(self, i: int, at: Points, *parts: tuple[Points, Points]) -> _Ways:
         """Return label i at places on leaders, whose parts have these starts and ends."""
@@ -212,15 +217,19 @@ class Scene:
         """Tell which boxes thin strokes run through."""
         return self.around.struck(boxes) if self.requests else [False] * len(boxes)
 
-    def along(self, i: int) -> Iterator[tuple[_Ways, Points, complex]]:
-        """Go through places where label i may run along its segment, the best few first, and its direction there."""
+    def along(self, i: int, other: Segment | None) -> Iterator[tuple[_Ways, Points, complex]]:
+        """Go through places where label i may run along its segment, the best few first, and its direction there.
+
+        Or along the `other` segment of its line.
+        """
         for begin, end in pairwise(BEST):
-            if (i, begin) not in self._along:
-                at, e, _ = self.wanted.turned(i)
+            if (i, begin, other) not in self._along:
+                wanted = self.wanted.at(i, *other) if other else self.wanted
+                at, e, _ = wanted.turned(i)
                 at = at[begin:end]
-                at = at[self.around.along(self.wanted, i, at, e)]
-                self._along[i, begin] = self._turned(i, at, e), at, e
-            yield self._along[i, begin]
+                at = at[self.around.along(wanted, i, at, e)]
+                self._along[i, begin, other] = self._turned(i, at, e), at, e
+            yield self._along[i, begin, other]
 
     def _turned(self, i: int, at: Points, e: complex) -> _Ways:
         """Return label i at places along its segment, in the direction `e`: there it is a stroke as wide as itself."""
@@ -362,7 +371,9 @@ class _Board:
         cost, k = self._best(i)
         if cost < spots.ONE:
             self._put(i, k)
-        return cost < spots.ONE
+            return True
+        other = self.requests[i].other
+        return bool(other) and (self._turned(i, other) or self._led(i, (False, False), spots.CROSSING) or self._bent(i))
 
     def _crossed(self) -> list[int]:
         """Labels through which a thin line runs, or which are in doubt; those whose leaders cross lines."""
@@ -481,9 +492,9 @@ class _Board:
             return True
         return cross and any(self._led(i, (far, True), limit) for far in (False, True))
 
-    def _turned(self, i: int) -> bool:
-        """Let label i run along its segment, if it finds room there."""
-        for ways, at, e in self.scene.along(i):
+    def _turned(self, i: int, other: Segment | None = None) -> bool:
+        """Let label i run along its segment, or the `other` one of its line, if it finds room there."""
+        for ways, at, e in self.scene.along(i, other):
             free, _ = self._free(i, ways, len(at))
             if free.size:
                 middle, half = complex(at[free[0]]), complex(self.wanted.hw[i] * e)

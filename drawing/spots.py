@@ -87,6 +87,7 @@ class Request:
     afield: bool = True
     along: bool = True
     optional: bool = False
+    other: Segment | None = None
 
 
 # sixteen sides of a box: where its centre lies in half sizes, and along what normal it leaves the anchor
@@ -125,6 +126,12 @@ class Wanted(NamedTuple):
         strict = np.array([r.strict for r in requests], dtype=bool)
         return cls(a, b, numbers[0], numbers[1], np.maximum(numbers[2], rim + gap), rim, prefer, numbers[3], strict)
 
+    def at(self, i: int, a: complex, b: complex) -> Wanted:
+        """Return the requests with another segment for label i."""
+        ends = self.a.copy(), self.b.copy()
+        ends[0][i], ends[1][i] = a, b
+        return self._replace(a=ends[0], b=ends[1])
+
     def candidates(self, steps: Reals) -> tuple[Points, Reals, Reals]:
         """Return centres (L, K), distances from the anchor (L, K) and the cost of standing there for its own sake."""
         centre = np.empty((len(self.a), 16, len(steps)), dtype=complex)
@@ -155,13 +162,13 @@ class Wanted(NamedTuple):
         own = np.broadcast_to(away[:, None], centre.shape).reshape(shape)
         return centre.reshape(shape), own, (taste[:, :, None] + STEP * far).reshape(shape)
 
-    def leads(self, i: int, lengths: Reals, ways: Points = STEEP) -> tuple[Points, Reals]:
-        """Return leaders of label i, shape (4, K), and what each costs for its own sake.
+    def leads(self, i: int, lengths: Reals, ways: Points, starts: Reals) -> tuple[Points, Reals]:
+        """Return leaders of label i, shape (4, K), and what each costs for its own sake; from a segment at `starts`.
 
         The four are the middle of the label, head and start of the leader, and the way from the start to the head.
         """
         a, along = self.a[i], self.b[i] - self.a[i]
-        share, way, length = (STARTS, ways, lengths) if along else (STARTS[:1], ways, lengths)
+        share, way, length = starts if along else STARTS[:1], ways, lengths
         if along:  # beside a segment it should not be taken for a part of it
             way = way[abs((way * np.conj(along)).imag) >= ACROSS * abs(along)]
         wish = self.prefer[i] if self.prefer[i] != 0 else 0.3 * HEADING[2]

@@ -170,19 +170,21 @@ class Canvas:
         last: str = "",
         bare: str = "",
         first: tuple[str, str] | None = None,
+        other: tuple[complex, complex] | None = None,
     ) -> None:
         """Ask for a letter beside a node, or beside a line from one point to another.
 
         One that would cover something and has a `spare` text is left out, and the text goes into the notes. It may be
-        turned `along` the line; an `optional` one is so where it can, and is left out where there is no room. One that
-        has only a `last` text is left out where nothing else helps; a blank text is said elsewhere. Where another
-        letter with the same text is left out, too, the notes have the `bare` one. What it begins with may be all of it
-        in an earlier stage: the `first` markup, and that stage.
+        turned `along` the line; an `optional` one is so where it can, else along an `other` part of it, and is left out
+        where there is no room. One that has only a `last` text is left out where nothing else helps; a blank text is
+        said elsewhere. Where another letter with the same text is left out, too, the notes have the `bare` one. What it
+        begins with may be all of it in an earlier stage: the `first` markup, and that stage.
         """
         height = height or self.style.label
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
-        request = Request(name, *layout.size, anchor, clear, prefer, priority, strict, not spare, along, optional)
+        size, afield = layout.size, not spare
+        request = Request(name, *size, anchor, clear, prefer, priority, strict, afield, along, optional, other)
         self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare, first)
 
     def small(

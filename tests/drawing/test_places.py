@@ -245,8 +245,15 @@ def test_optional_labels_run_along_their_lines_give_way_to_all_others_and_are_le
     assert not {r.name for r in more} & {*labels.leaders, *labels.failed}
     assert {r.name for r in kept} & {*labels.angles}
     assert covered(requests + kept, obstacles, labels) == covered(requests, obstacles, alone) == set()
-    wall = [(complex(-50, y), complex(50, y)) for y in range(-50, 51, 3)]
-    assert place([Request("x", 9, 5, (0j, 12 + 0j), optional=True)], Obstacles(wall)).corners == {}
+    wall, line = [(complex(-50, y), complex(50, y)) for y in range(-50, 51, 3)], (0j, 12 + 0j)
+    assert place([Request("x", 9, 5, line, optional=True)], Obstacles(wall)).corners == {}
+    aside = place([Request("x", 9, 5, line, optional=True, other=(70 + 0j, 110 + 0j))], Obstacles(wall))
+    assert aside.corners["x"].real > 60
+    gate = [(a, b) for a, b in wall if a.imag < 0] + [
+        (complex(x, y), complex(x + 46, y)) for x in (-42, 8) for y in (2, 4)
+    ]
+    led = place([Request("x", 9, 5, line, optional=True, other=(line[0] - 9, line[0]))], Obstacles(gate))
+    assert {*led.leaders} == {"x"}
 
 
 @pytest.mark.parametrize("scenes", [30, pytest.param(120, marks=pytest.mark.soak)])

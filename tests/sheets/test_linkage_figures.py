@@ -852,6 +852,30 @@ def test_lines_that_find_a_joint_run_past_it(task: str) -> None:
     assert len(lines) == 2
 
 
+# lines beside vectors, that end between letters, whose mark has a leader
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some(
+        [
+            ("scheme-09-shaper", "3"),
+            ("scheme-20-press-automaton", "4"),
+            ("scheme-15-lever-shears", "0"),
+            ("scheme-17-sewing-machine", "0"),
+        ],
+        1,
+        3,
+    ),
+)
+def test_each_construction_line_of_a_crowded_plan_has_its_mark(task: str, variant: str) -> None:
+    case = Linkage(task, variant)
+
+    for view in (case.sheet["velocity"], case.sheet["acceleration"]):
+        lines = {line.name for line in view.lines("construction")}
+        marks = [text.string for text in view.of("label") if text.string[0] in "⊥∥"]
+        assert len(lines) > 3
+        assert len(marks) == len(lines), (view.name, marks)
+
+
 @pytest.mark.parametrize(("only", "letters"), [("position", {"A"}), ("position,velocity", {"A_{1,2,3}"})])
 def test_coincident_points_are_lettered_by_their_links_where_they_are_told_apart(only: str, letters: set[str]) -> None:
     strings = {text.string for text in position("scheme-11-slotter", only).texts}

@@ -200,7 +200,7 @@ def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window,
         for i, (tail, point, end, text) in enumerate(at.lines()):
             canvas.thin("construction", f"{at.plan}_{i + 1}", tail, end)
             if not any(window.shows(point) for window in shown[at.plan]):
-                plans.name_line(canvas, text, point, end)
+                plans.name_line(canvas, text, tail, point, end)
     for at in points:
         reading = at.scene.reading
         # what the closed figure shows has steps of its own

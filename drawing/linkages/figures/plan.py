@@ -291,7 +291,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, told: bool = F
         if cut is not None:
             canvas.thin("construction", f"{name}_{i + 1}", *cut)
         if past is not None:
-            name_line(canvas, text, *past)
+            name_line(canvas, text, past[0], *past)
     letters: dict[tuple[complex, complex], dict[str, None]] = {}  # of vectors from one place to another
     for vector in plan.vectors():
         letters.setdefault((vector.tail, vector.tip), {})[scene.letter(vector.quantity)] = None
@@ -331,11 +331,12 @@ def _construction_line(scene: Scene, step: Step, start: str, direction: str) -> 
     return tail, point, point + e * PAST if along > 0 else point - e * PAST
 
 
-def name_line(canvas: Canvas, text: str, point: complex, end: complex) -> None:
-    """Say along a construction line what it is, past the point that it finds."""
+def name_line(canvas: Canvas, text: str, tail: complex, point: complex, end: complex) -> None:
+    """Say along a construction line what it is, past the point that it finds, or before it where there is no room."""
     if abs(end - point) > NEAR:
         beyond = end + (end - point) * (LONGER / abs(end - point))
-        canvas.label(text.replace(" ", ""), (point, beyond), clear=0.6, height=canvas.style.text, optional=True)
+        mark, before = text.replace(" ", ""), (tail, point) if abs(point - tail) > NEAR else None
+        canvas.label(mark, (point, beyond), clear=0.6, height=canvas.style.text, optional=True, other=before)
 
 
 def letter_marks(
@@ -384,7 +385,7 @@ def plan_view(scene: Scene, plan: str) -> View:
     for step, number, start, direction in scene.reading.meetings(plan):
         begin, point, end = _construction_line(scene, step, start, direction)
         canvas.part(step.name, Line(begin, end, Pen.THIN, role="construction", name=f"{step.name}_{number}"))
-        name_line(canvas, line_of(scene, direction), point, end)
+        name_line(canvas, line_of(scene, direction), begin, point, end)
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     _vectors(canvas, scene, vectors, left)
     ends, poles = {mark for edge in left for mark in (edge.tail, edge.tip)}, forces.poles()
