@@ -471,7 +471,7 @@ def test_random_arms_that_make_small_angles_do_not_meet() -> None:
 
 
 # Forces of very different size on one plan: the small ones stand in an inset, enlarged, and can be measured there.
-NUMERALS = ("I", "II", "III", "IV", "V")
+NUMERALS = ("I", "II", "III", "IV", "V", "VI")
 INSETS = [
     Linkage("scheme-13-toggle-press", "1", format="A1"),
     pytest.param(Linkage("scheme-18-hydraulic-drive", "1", format="A1"), marks=pytest.mark.soak),
@@ -850,6 +850,42 @@ def test_lines_that_find_a_joint_run_past_it(task: str) -> None:
         assert abs(cross(end - start, at - start)) < NEAR * abs(end - start)
         assert 3.0 < abs(end - at) < abs(at - start)
     assert len(lines) == 2
+
+
+# points between vectors that leave no room, on one vector, at both ends of a plan
+@pytest.mark.parametrize(
+    ("task", "variant", "enlarged"),
+    some(
+        [
+            ("scheme-14-jaw-crusher", "3", True),
+            ("nau-slider-crank", "3", False),
+            ("scheme-16-hay-baler", "5", True),
+            ("scheme-13-toggle-press", "2", True),
+            ("scheme-09-shaper", "4", True),
+            ("scheme-20-press-automaton", "0", False),
+        ],
+        2,
+    ),
+)
+def test_each_point_of_a_plan_has_its_letter_there_or_in_a_detail(task: str, variant: str, enlarged: bool) -> None:
+    case = Linkage(task, variant)
+    plans = [case.sheet["velocity"], case.sheet["acceleration"]]
+    places = dict[str, set[bool]]()  # of all points, and whether they have letters where they stand
+    for view in [view for plan in plans for view in (plan, *plan.insets)]:
+        at = [text.of[0] for text in view.of("label") if len(text.of) == 1]
+        for ring in view.nodes:
+            places.setdefault(ring.path[-1][1], set()).add(any(abs(ring.centre - own) < 0.71 for own in at))
+
+    assert [name for name, lettered in places.items() if True not in lettered] == []
+    assert any(plan.insets for plan in plans) == enlarged
+    for plan in plans:
+        assert len(plan.insets) == len(plan.lines("window")) < 2
+        numerals = [text.string for text in plan.of("label") if text.string in NUMERALS]
+        headings = [text.string for inset in plan.insets for text in inset.of("heading")]
+        assert [heading for heading in headings if "елемент" in heading] == [f"Виносний елемент {n}" for n in numerals]
+        for vector in (vector for inset in plan.insets for vector in inset.vectors):
+            assert abs(vector.span) * vector.mu == pytest.approx(vector.value, abs=NEAR * vector.mu)
+            assert parallel(vector.span, plan.vector(vector.quantity).span, 0.01)
 
 
 # lines beside vectors, that end between letters, whose mark has a leader

@@ -70,6 +70,10 @@ class At(Plan):
             plain = named(self.kind, self.point) if edge.name == total else edge.name
             yield self.scene.vector(replace(edge, name=plain), at=self.place)
 
+    def edges(self) -> Sequence[Edge]:
+        """Return no vectors: their ends have no letters."""
+        return ()
+
     def lines(self) -> Iterator[ConstructionLine]:
         """Go through the construction lines, which are lettered with their directions."""
         for step, _, start, direction in self.scene.reading.meetings(self.plan):

@@ -26,6 +26,7 @@ from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
 
 READABLE = 1.4  # arrowheads: the least length of a vector in an inset
+MOST_TIMES = 10.0  # the largest enlargement of points that crowd
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
 WIDEST, NARROWEST = 26.0, 45.0  # the largest side of what an inset shows, in heights of its letters; mm, the least
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
@@ -117,6 +118,10 @@ class Plan:
         vectors = map(self.scene.vector, dict.fromkeys(self.scene.reading.on(self.plan)))
         return (vector for vector in vectors if length_of(vector) >= least)
 
+    def edges(self) -> Sequence[Edge]:
+        """Return the vectors between marks that have letters."""
+        return self.scene.reading.on(self.plan)
+
     def lines(self) -> Iterable[ConstructionLine]:
         """Go through the construction lines."""
         for step, _, start, along in self.scene.reading.meetings(self.plan):
@@ -160,12 +165,38 @@ class Plan:
         mu = self.scene.scales[self.plan].mu
         return [m for m in TIMES if float(f"{mu / m:e}".partition("e")[0]) in SERIES] or TIMES
 
+    def around(self, marks: Collection[str]) -> Window | None:
+        """Return what an inset shows where marks crowd: as many of them as one enlargement gives letters in its frame.
+
+        There is none where no mark has its letter there.
+        """
+        at, best, least = self.marks(), None, len(marks)
+        for times in (times for times in self._times if times <= MOST_TIMES):
+            widest, shown = WIDEST * self.scene.style.label / times, list[complex]()
+            for mark in marks:
+                away = sorted((abs(at[other] - at[mark]), other) for other in marks)
+                ends = [at[other] for _, other in away]
+                near = [end for k, end in enumerate(ends) if max(size_of(ends[: k + 1])) <= widest]
+                shown = max(shown, near, key=len)
+            view, window = _roomy(self, Window.about(shown, times, NARROWEST), self.plan, NUMERALS[0])
+            bad = len(_unlettered(self.scene, marks, view.shapes)) + len(_outside(view, window))
+            if bad < least:
+                best, least = window, bad
+        return best
+
     def read_in(self, window: Window) -> Iterator[str]:
         """Go through the quantities whose vectors, too short for an arrowhead on the plan, can be read in a window."""
         for vector in self.vectors():
             long = length_of(vector) * window.times >= self.scene.style.arrow
             if long and _in_inset(self.scene, [window], (vector.tail, vector.tip)):
                 yield vector.quantity
+
+
+def _unlettered(scene: Scene, marks: Iterable[str], shapes: Iterable[Shape]) -> list[str]:
+    """Return the marks that have no letter among shapes."""
+    texts = (shape.markup for shape in shapes if isinstance(shape, Text) and shape.role == "label")
+    letters = {letter for text in texts for letter in text.split(", ")}
+    return [mark for mark in marks if scene.words.mark(mark) not in letters]
 
 
 def enlarged(scene: Scene, quantity: str, plan: str) -> float:
@@ -295,7 +326,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, told: bool = F
     letters: dict[tuple[complex, complex], dict[str, None]] = {}  # of vectors from one place to another
     for vector in plan.vectors():
         letters.setdefault((vector.tail, vector.tip), {})[scene.letter(vector.quantity)] = None
-    edges = [*scene.reading.on(plan.plan)] if role(plan.plan).kind == FORCES else []
+    edges = plan.edges()
     said = {scene.ends(edge): _ends_of(scene, edge, edges) for edge in edges}
     for vector in told_apart(plan.vectors()):
         tail, tip, names = vector.tail * times, vector.tip * times, letters.pop((vector.tail, vector.tip), ())
@@ -377,41 +408,75 @@ LARGE = 1e4  # above it a number is written with a power of ten
 
 
 def plan_view(scene: Scene, plan: str) -> View:
-    """Draw a plan from the steps that made it: construction lines, vectors, letters; of forces also insets."""
+    """Draw a plan from the steps that made it: construction lines, vectors, letters.
+
+    An inset has forces that are too short, or points that crowd on another plan.
+    """
+    shown = Plan(scene, plan).windows()
+    view, marks = _drawn(scene, plan, shown, ())
+    if role(plan).kind == FORCES or not (gone := _unlettered(scene, marks, view.shapes)):
+        return view
+    window = Plan(scene, plan).around(gone)
+    if window is None:
+        return view
+    return _drawn(scene, plan, [window], [mark for mark in gone if window.shows(scene.mm(mark))])[0]
+
+
+def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[str]) -> tuple[View, Sequence[str]]:
+    """Draw a plan with insets, which have the letters of a `crowd` of marks; return it, and all marks with letters."""
     canvas, words = scene.canvas(), scene.words
     vectors, forces = scene.reading.on(plan), Plan(scene, plan)
-    shown = forces.windows()
-    left = [edge for edge in vectors if not _in_inset(scene, shown, scene.ends(edge))]
+    short_ones = () if crowd else shown
+    left = [edge for edge in vectors if not _in_inset(scene, short_ones, scene.ends(edge))]
     for step, number, start, direction in scene.reading.meetings(plan):
         begin, point, end = _construction_line(scene, step, start, direction)
         canvas.part(step.name, Line(begin, end, Pen.THIN, role="construction", name=f"{step.name}_{number}"))
         name_line(canvas, line_of(scene, direction), begin, point, end)
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
-    _vectors(canvas, scene, vectors, left)
+    within = {scene.ends(edge) for edge in vectors if crowd and shown[0].shows(*scene.ends(edge))}
+    _vectors(canvas, scene, vectors, left, within)
     ends, poles = {mark for edge in left for mark in (edge.tail, edge.tip)}, forces.poles()
     marks = *poles, *(edge.tip for edge in vectors if edge.tip in ends)
     said = {edge.tip: _ends_of(scene, edge, vectors) for edge in reversed(left)}
     places = {m: scene.mm(m) for m in marks}
-    said |= {m: ELSEWHERE for m, place in places.items() if any(window.shows(place) for window in shown)}
+    said |= {m: ELSEWHERE for m, at in places.items() if m in crowd or any(w.shows(at) for w in short_ones)}
     letter_marks(canvas, scene, {m: words.mark(m) for m in marks}, places, poles, said)
     notes = [*said_flat(scene, plan)]
-    read = {quantity for window in shown for quantity in forces.read_in(window)}
+    read = {quantity for window in short_ones for quantity in forces.read_in(window)}
     short = [v for v in map(scene.vector, dict.fromkeys(vectors)) if length_of(v) < SHORT and v.quantity not in read]
     lengths = {scene.letter(vector.quantity): length_of(vector) for vector in short}
     notes += [words["said.zero"].format(vector=letter) for letter, length in lengths.items() if length < 1e-6]
     said_short = [f"{letter} ({words.number(mm, 2)})" for letter, mm in lengths.items() if mm >= 1e-6]
     for i in range(0, len(said_short), EACH):
         notes.append(words["said.short"].format(vectors=", ".join(said_short[i : i + EACH])))
-    kin = [p for p in scene.solved.program.plans if role(p).kind == FORCES]  # a sheet has each numeral once
-    numeral = NUMERALS[sum(len(Plan(scene, other).windows()) for other in kin[: kin.index(plan)])] if shown else ""
+    numeral = _numeral(scene, plan) if shown else ""
     for window in shown:
-        if symbols := dict.fromkeys(map(scene.letter, forces.read_in(window))):
+        inside = map(words.mark, crowd) if crowd else map(scene.letter, forces.read_in(window))
+        if symbols := dict.fromkeys(inside):
             notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=numeral))
     heading = plan_heading(words, scene.solved.structure, plan), words.scale(scene.scales[plan])
-    return with_insets(canvas, plan, heading, tuple(notes), [(forces, window, numeral) for window in shown])
+    insets = [(forces, window, numeral) for window in shown]
+    return with_insets(canvas, plan, heading, tuple(notes), insets), marks
 
 
-def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Sequence[Edge]) -> None:
+def _numeral(scene: Scene, plan: str) -> str:
+    """Return the numeral of the inset of a plan: a sheet has each once, those of forces in order, then the others."""
+    plans = scene.solved.program.plans
+    forces = [p for p in plans if role(p).kind == FORCES]
+    others = [p for p in plans if p not in forces]
+    before = forces[: forces.index(plan)] if plan in forces else forces
+    after = 0 if plan in forces else others[::-1].index(plan)
+    return NUMERALS[sum(len(Plan(scene, other).windows()) for other in before) + after]
+
+
+def _vectors(
+    canvas: Canvas,
+    scene: Scene,
+    vectors: Sequence[Edge],
+    lettered: Sequence[Edge],
+    within: Collection[tuple[complex, complex]],
+) -> None:
+    """Draw vectors with their names; an inset has those `within` it, where these have no room."""
     named = set[frozenset[complex]]()
     for edge, vector in zip(vectors, told_apart(map(scene.vector, vectors)), strict=True):
         canvas.part(scene.reading.drawn_with(edge))
@@ -426,7 +491,7 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Se
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named.add(ends)
         text = " = ".join(map(scene.letter, names))
-        spare = _ends_of(scene, edge, vectors)
+        spare = ELSEWHERE if scene.ends(edge) in within else _ends_of(scene, edge, vectors)
         bare = f"{spare} = {scene.length(length_of(vector))}"
         ends_at = vector.tail, vector.tip
         canvas.label(text, ends_at, prefer=side, clear=0.9, strict=True, spare=spare, bare=bare)
