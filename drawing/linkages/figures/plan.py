@@ -410,11 +410,11 @@ LARGE = 1e4  # above it a number is written with a power of ten
 def plan_view(scene: Scene, plan: str) -> View:
     """Draw a plan from the steps that made it: construction lines, vectors, letters.
 
-    An inset has forces that are too short, or points that crowd on another plan.
+    An inset has forces that are too short, or points that crowd on a plan without such forces.
     """
     shown = Plan(scene, plan).windows()
     view, marks = _drawn(scene, plan, shown, ())
-    if role(plan).kind == FORCES or not (gone := _unlettered(scene, marks, view.shapes)):
+    if shown or not (gone := _unlettered(scene, marks, view.shapes)):
         return view
     window = Plan(scene, plan).around(gone)
     if window is None:
@@ -460,13 +460,13 @@ def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[s
 
 
 def _numeral(scene: Scene, plan: str) -> str:
-    """Return the numeral of the inset of a plan: a sheet has each once, those of forces in order, then the others."""
-    plans = scene.solved.program.plans
-    forces = [p for p in plans if role(p).kind == FORCES]
-    others = [p for p in plans if p not in forces]
-    before = forces[: forces.index(plan)] if plan in forces else forces
-    after = 0 if plan in forces else others[::-1].index(plan)
-    return NUMERALS[sum(len(Plan(scene, other).windows()) for other in before) + after]
+    """Return the numeral of the inset of a plan: a sheet has each once, those of small forces in order, then others."""
+    counts = {other: len(Plan(scene, other).windows()) for other in scene.solved.program.plans}
+    if counts[plan]:
+        return NUMERALS[sum(counts[other] for other in [*counts][: [*counts].index(plan)])]
+    kinds = "acceleration", "velocity", FORCES
+    others = [other for kind in kinds for other in counts if role(other).kind == kind and not counts[other]]
+    return NUMERALS[sum(counts.values()) + others.index(plan)]
 
 
 def _vectors(
