@@ -372,7 +372,7 @@ class _Board:
         if cost < spots.ONE:
             self._put(i, k)
             return True
-        other = self.requests[i].other
+        other = None if self.failed else self.requests[i].other  # this order is hardly the last one
         return bool(other) and (self._turned(i, other) or self._led(i, (False, False), spots.CROSSING) or self._bent(i))
 
     def _crossed(self) -> list[int]:

@@ -178,10 +178,13 @@ class Plan:
                 ends = [at[other] for _, other in away]
                 near = [end for k, end in enumerate(ends) if max(size_of(ends[: k + 1])) <= widest]
                 shown = max(shown, near, key=len)
-            view, window = _roomy(self, Window.about(shown, times, NARROWEST), self.plan, NUMERALS[0])
-            bad = len(_unlettered(self.scene, marks, view.shapes)) + len(_outside(view, window))
+            window = Window.about(shown, times, NARROWEST)
+            view, wider = _roomy(self, window, self.plan, NUMERALS[0])
+            bad = len(_unlettered(self.scene, marks, view.shapes)) + len(_outside(view, wider))
             if bad < least:
                 best, least = window, bad
+            if not least:
+                break
         return best
 
     def read_in(self, window: Window) -> Iterator[str]:
