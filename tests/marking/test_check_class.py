@@ -229,11 +229,14 @@ def test_students_who_share_their_errors_are_named(tmp_path: Path, run: Run) -> 
     assert [line.startswith("Student 03") and "Student 08" in line for line in flagged] == [True, False]
 
 
-def drawn_segments(task: str, hand: str, count: int, step: float = 0.5) -> list[dict[str, _Measured]]:
+def drawn_segments(
+    task: str, hand: str, count: int, step: float = 0.5, plans: tuple[str, ...] | None = None, seed: int = 5
+) -> list[dict[str, _Measured]]:
     """Return what students of one variant have measured on drawings of their own, read to `step` mm."""
     of = key(task)
-    board = draw(of.paper, preset(hand).hand, np.random.default_rng(5), count)
-    mus = {q.name: of.paper.mus.get(q.plan) for q in of.questions.values() if q.step.verb in ("read", "arm")}
+    board = draw(of.paper, preset(hand).hand, np.random.default_rng(seed), count)
+    asked = [q for q in of.questions.values() if plans is None or q.plan in plans]
+    mus = {q.name: of.paper.mus.get(q.plan) for q in asked if q.step.verb in ("read", "arm")}
     sizes = {name: np.broadcast_to(abs(board.values[name]), (count,)) / mu for name, mu in mus.items() if mu}
     read = [{name: round(float(mm[i] / step)) * step for name, mm in sizes.items()} for i in range(count)]
     lines = [{name: Reply(name, mm, decimals=1) for name, mm in one.items()} for one in read]
@@ -257,6 +260,28 @@ def test_of_pairs_of_one_variant_only_those_are_told_that_copy(task: str, least:
     assert len(list(shared(hands))) <= (0 if hand == "normal" else 1)
     assert sum(len(list(shared([one, other]))) for one, other in pairwise(hands)) == 0
     assert sum(told) >= (least if hand == "normal" else 0.4) * len(hands)
+
+
+@pytest.mark.parametrize(("task", "least"), [("nau-slider-crank", 0.2), ("madi-four-bar", 0.85)])
+def test_in_a_class_of_two_plans_copies_are_told_and_honest_hands_are_not(task: str, least: float) -> None:
+    plans = ("velocity", "acceleration")
+    classes = [drawn_segments(task, "normal", 24, plans=plans, seed=seed) for seed in range(3)]
+
+    told = [
+        {(pair.first, pair.second) for pair in shared([*hands, dict(hands[i])])} for hands in classes for i in range(24)
+    ]
+
+    assert sum(len(list(shared(hands))) for hands in classes) <= 1  # of 828 pairs
+    assert sum((n % 24, 24) in pairs for n, pairs in enumerate(told)) >= least * len(told)
+
+
+def test_marks_that_are_read_in_several_ways_are_counted_as_often_as_they_can_err() -> None:
+    """A mark has two coordinates; half of a vector that is laid off errs as little as that does."""
+    for task in ("nau-slider-crank", "madi-four-bar"):
+        (names,) = (one.keys() for one in drawn_segments(task, "normal", 1, plans=("velocity", "acceleration")))
+
+        assert len({"a_BA", "a_BA_t", "a_B", "a_C", "a_C_t", "a_CB", "a_CB_t"} & {*names}) == 2
+        assert not {"V_S1", "a_S1"} & {*names}
 
 
 def test_who_goes_on_honestly_from_the_same_mistake_has_not_copied() -> None:

@@ -10,6 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -24,18 +25,21 @@ from .reading import Answers, Reply
 from .wording import heads, mistake_texts, texts
 
 FOUND = ("meet", "arc", "arcs", "tangent", "similar", "divide", "template")  # verbs that find a mark by drawing
+PARTED = ("divide",)  # between marks
 LEAST_MM = 5.0  # shorter segments say little
 HAND = 0.25  # mm, by which a usual hand misses at the least
 UNLIKELY = 1e-3  # that an honest hand is so exact
-SHARED = 0.03  # ratio of likelihoods of all pairs of a class together at which one of them is told of
+SHARED = 1.0  # ratio of likelihoods of all pairs of a class together at which one of them is told of
+BY_WRONG = 0.03  # the same of two who share readings that are wrong, by these alone
 UNLIKELY_PAIR = 5e-3  # that of a pair in a small class
+DOUBT = 2.0  # students more by which the others of a class are counted who have read the same
 FEWEST = 3  # segments that two students must share
 FEWEST_WRONG = 2  # wrong ones, where the others need not agree
 KNOWN, ALIKE = 0.5, 0.1  # how often two honest students make the same mistake: a known one, any other one
 READ_TO = 0.1  # mm to which a segment is read at best of which only the value is said
 CHANGED = 0.5  # mm by which somebody who copies changes some of them
 SAME, AGREE = 0.65, 0.9  # parts of the segments that must be the same, and at the most changed so
-SAME_OF_ALL = 0.5  # part that must be the same where all others are changed so
+SAME_OF_ALL = 0.5  # more than this part must be the same where all others are changed so
 COPIED, FAR = 0.65, 0.02  # how often a copied segment is the same, and another one altogether
 CERTAIN = 0.6  # the chance that two honest readings are the same is no more than this
 WIDEST = 2.0  # mm of spread
@@ -77,15 +81,30 @@ def measured(
     """
     made = {one.name: one for one in key.paper.program}
     found: dict[str, tuple[Reply, float]] = {}
+    at: dict[str, list[str]] = {}  # by the mark where they end
+
+    def drawn(mark: str) -> bool:
+        step = made.get(mark)
+        parted = step is not None and step.verb in PARTED  # as sure as what it parts
+        return step is not None and (any(map(drawn, step.operands)) if parted else step.verb in FOUND)
+
     for name, line in answers.lines.items():
         question = key.questions.get(name)
         if question is None or line.empty or question.step.verb not in ("read", "arm"):
             continue
         mu = mus.get(question.plan)
-        ends = question.step.operands if question.step.verb == "read" else ()
-        drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
-        if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
+        ends = [end for end in question.step.operands if drawn(end)] if question.step.verb == "read" else [name]
+        if mu and ends and abs(key[name]) / mu >= LEAST_MM:
             found[name] = line, mu
+            at.setdefault(ends[-1], []).append(name)
+    for names in at.values():  # a mark has two coordinates: what else ends there errs as two segments do
+        while len(names) > 1:
+            sizes = sorted((abs(key[name]) / found[name][1], name) for name in names)
+            gap, name = min((two[0] - one[0], one[1]) for one, two in pairwise(sizes))
+            if len(names) == 2 and gap > ROUNDING:
+                break
+            names.remove(name)
+            del found[name]
     # halves of a millimetre are written with one decimal, too; what is laid off may be written to more digits
     decimals = min(max((line.decimals for line, _ in found.values()), default=0), 3)
     halves = all((2.0 * (line.mm or 0.0)).is_integer() for line, _ in found.values())
@@ -128,7 +147,7 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
 
     Who copies leaves most millimetres as they are and changes some of them a little; two honest drawings miss by
     different amounts. Pairs that agree so far are held against both hypotheses, segment by segment; and those who share
-    two segments or more that are wrong by themselves, by these alone.
+    two segments or more that are wrong by themselves, by these alone. What many others have read, too, tells little.
     """
     import numpy as np
 
@@ -143,12 +162,12 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
     reach = np.array([max([CHANGED, *(s.step for s in student.values())]) for student in students]) + ROUNDING
     # pairs of other variants have no millimetres alike
     like = sum(int(((abs(right[i + 1 :] - own) <= CHANGED).sum(axis=1) >= FEWEST).sum()) for i, own in enumerate(right))
-    least = math.log(min(UNLIKELY_PAIR, SHARED / max(like, 1)))
+    least, least_wrong = (math.log(min(UNLIKELY_PAIR, ratio / max(like, 1))) for ratio in (SHARED, BY_WRONG))
     for i in range(len(students) - 1):
         apart = np.abs(mm[i + 1 :] - mm[i])
         both, same = np.isfinite(apart).sum(axis=1), (apart < ROUNDING).sum(axis=1)
         near = (apart <= np.maximum(reach[i + 1 :], reach[i])[:, None]).sum(axis=1)
-        most, all_near = (same >= SAME * both) & (near >= AGREE * both), (same >= SAME_OF_ALL * both) & (near == both)
+        most, all_near = (same >= SAME * both) & (near >= AGREE * both), (same > SAME_OF_ALL * both) & (near == both)
         wrong = np.maximum(alike[i + 1 :], alike[i]) < 1.0
         agree = (same >= FEWEST) & (most | all_near)
         for k in np.flatnonzero(agree | ((wrong & (apart < ROUNDING)).sum(axis=1) >= FEWEST_WRONG)):
@@ -158,9 +177,11 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
             rest[[i, other]] = False
             as_wrong = (rest & (abs(mm - mm[i]) <= WIDEST)).sum(axis=0) + np.maximum(alike[i], alike[other])
             common = np.where(wrong[k], np.maximum(as_wrong / (rest.sum(axis=0) + 1.0), ALIKE), 1.0)
-            chances = {n: _chance(one[n], two[n], common[j]) for j, n in enumerate(names) if n in one and n in two}
+            seen = (rest & (abs(mm - mm[i]) < ROUNDING)).sum(axis=0) / (rest.sum(axis=0) + DOUBT)
+            both_have = [(j, n) for j, n in enumerate(names) if n in one and n in two]
+            chances = {n: max(_chance(one[n], two[n], common[j]), min(seen[j], CERTAIN)) for j, n in both_have}
             by_wrong = sum(math.log(chances[names[j]]) for j in said if wrong[k, j])
-            if by_wrong < least or (agree[k] and _likelihood(one, two, chances) < least):
+            if by_wrong < least_wrong or (agree[k] and _likelihood(one, two, chances) < least):
                 yield _Pair(i, other, tuple(names[j] for j in said), int(near[k]), int(both[k]))
 
 
