@@ -477,3 +477,12 @@ def test_where_a_driver_cannot_go_is_cut_at_the_end_of_a_turn_only(
     stretches = [*Abscissa("", turns, (Arc(low, high),)).stretches()]
 
     assert stretches == [pytest.approx(ends) for ends in shown]
+
+
+@pytest.mark.parametrize(("turns", "ends"), [(True, (0.0, 360.0)), (False, (20.0, 75.0))])
+def test_a_field_shows_a_turn_or_all_travels(turns: bool, ends: tuple[float, float]) -> None:
+    axes = Figure().add_subplot()
+
+    Abscissa("", turns, ()).limit(axes, np.array([50.0, 20.0, 75.0]))
+
+    assert axes.get_xlim() == ends

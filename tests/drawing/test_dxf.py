@@ -74,6 +74,8 @@ def test_a_sheet_is_sound_and_its_vectors_and_letters_are_read_back(task: str) -
         written = Counter(letter for text in entities(document, "TEXT") for letter in text.dxf.text if letter != " ")
         assert written == letters(page)
         assert {text.dxf.style for text in entities(document, "TEXT")} == {STYLE}
+        colours = {hatch.dxf.true_color for hatch in entities(document, "HATCH") if hatch.dxf.hasattr("true_color")}
+        assert 0xFFFFFF not in colours  # LibreCAD prints white itself as black
 
 
 def test_letters_stand_where_they_do_on_paper_and_keep_their_width() -> None:

@@ -11,7 +11,7 @@ from kulman.drawing.dimensions import linear
 from kulman.drawing.formats import FORMATS, STYLES, Style, pens_for
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Arc, Group, Head, Line, Text
-from kulman.drawing.symbols import angle_dimension
+from kulman.drawing.symbols import angle_dimension, clear_ray
 from kulman.drawing.tables import table, text_block
 from kulman.drawing.text import lay_out, placer
 from kulman.drawing.view import Canvas, View
@@ -187,3 +187,13 @@ def test_heads_of_a_dimensioned_angle_touch_its_rays_from_inside_or_from_outside
         turned = cmath.phase(foot / cmath.rect(1.0, start + 0.5 * sweep))
         assert (abs(turned) < 0.5 * abs(sweep)) == (not tails)
     assert bool(tails) == (radius * abs(sweep) <= 2.5 * style.arrow)
+
+
+@pytest.mark.parametrize(
+    ("lines", "ray"),
+    [((), 1j), ((1j,), -1j), ((-1j,), 1j), ((1j, -1.0 + 0j), -1j), ((1.0 + 0j,), 1j), ((1.0 + 2j, -1.0 + 1.9j), -1j)],
+)
+def test_an_arrow_lies_where_links_leave_it_more_room_and_points_as_it_should(
+    lines: tuple[complex, ...], ray: complex
+) -> None:
+    assert clear_ray(1j, lines) == ray

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -249,7 +250,9 @@ def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, run: Run) -> None:
     texts = {letter.text.replace(" ", "") for letter in after.letters}
     assert any(text.startswith("dashed") for text in texts)
     svg = outputs[0].read_text("utf-8")
-    assert "✗" in svg
+    told = re.findall(r'<(?:g|text) class="label" data-name="(\w+)"[^>]*>([^✓✗]*?)([✓✗])', svg)
+    assert {mark for *_, mark in told} == {"✓", "✗"}
+    assert {name for name, *_ in told} == {*re.findall(r'class="arrow" data-name="(\w+)"', svg)}
     assert "stroke-dasharray" in svg
     assert "data:image/svg+xml" in outputs[3].read_text("utf-8")
 

@@ -180,7 +180,8 @@ def test_guides_are_pages_that_lead_to_one_another_and_to_tasks(language: str, c
     for topic, page in pages.items():
         for part in re.findall('href="#([^"]+)"', page):
             assert part == "main" or f'id="{unquote(part)}"' in page, topic
-    assert client.get("/guide/none").status_code == 404
+    none = client.get("/guide/none")
+    assert (none.status_code, "There is nothing at this address" in none.text) == (404, True)
 
 
 def test_a_form_says_nothing_of_cells_that_it_does_not_have(client: TestClient) -> None:
