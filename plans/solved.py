@@ -230,9 +230,9 @@ class Course(ABC):
         return {}
 
     def rows(self, count: int | None) -> Rows:
-        """Return the rows of a table: so many places, without a number what is marked."""
-        many = self.usual if count is None else count
-        return list(map(str, range(many))), self.columns(self.places(many))
+        """Return the rows of a table: so many places, without a number what is marked, or the usual ones."""
+        places = self.places(count or self.usual)
+        return list(map(str, range(len(places)))), self.columns(places)
 
     def extremes(self) -> Sequence[Ends]:
         """Return the extremes of columns, where they are told."""

@@ -60,6 +60,7 @@ def test_without_positions_files_have_every_degree_and_the_table_the_section_lin
     assert {*[*columns.values()][-1]} == {"ok"}
     assert len(table) == 1 + 26 + 2  # section lines, two of them with both limits
     assert [line.split()[3] for line in table if line.split()[1:2] == ["36"]] == ["20.6901"]
+    assert len(swept(positions=12).table().split("\n\n")[0].splitlines()) == 1 + 12
 
 
 def test_velocity_and_acceleration_are_derivatives_of_the_travel() -> None:

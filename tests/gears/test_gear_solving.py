@@ -263,6 +263,7 @@ def test_table_csv_and_json_tell_the_same(tmp_path: Path, run: Run) -> None:
         assert float(row[2]) * 1e-3 == pytest.approx(data["columns"]["rho_1"]["value"][k], rel=1e-15)
         assert math.radians(float(row[1])) == pytest.approx(data["columns"]["phi"]["value"][k], abs=1e-9)
     assert f"{data['columns']['theta_12']['value'][0]:.3f}".replace("-", "−") in swept.table()
+    assert [line.split()[0] for line in swept.table().partition("\n\n")[0].splitlines()[1:]] == [*"01234"]
     assert [zone["pairs"] for zone in data["zones"]] == [2, 1, 2]
     _, out, _ = run("sweep", TASK, "-o", tmp_path / "x.csv", "--lang", "uk")
     assert (tmp_path / "x.csv").read_bytes().count(b"\r\n") == 102
