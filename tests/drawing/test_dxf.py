@@ -141,6 +141,9 @@ def test_fields_of_the_title_block_are_attributes_blank_ones_too(norm: str) -> N
     assert (fields[student].dxf.text, fields[student].is_invisible) == ("Коваль І. П.", True)
     assert (fields[teacher].dxf.text, fields[teacher].is_invisible) == ("", False)
     assert fields[teacher].dxf.insert.y < fields[student].dxf.insert.y
+    aligned = {field.get_align_enum().name for field in fields.values()}
+    assert fields[student].get_align_enum().name == "LEFT"
+    assert aligned == ({"LEFT", "CENTER"} if norm == "gost" else {"LEFT"})
     width, height = sheet.pages[0].width, sheet.pages[0].height
     assert all(
         width / 2 < field.dxf.insert.x < width and 5 < field.dxf.insert.y < height / 4 for field in block.attribs

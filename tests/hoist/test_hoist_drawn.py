@@ -36,6 +36,8 @@ def test_numbers_of_the_construction_are_those_of_the_forces(solved: SolvedHoist
     for name, value in solved.forces.found.items():
         if name in solved.quantities:
             assert solved.quantities[name].value == value
+    units = {name: solved.quantities[name].unit for name in ("mu_F", "mu_y", "mu_v")}
+    assert units == {"mu_F": "N/mm", "mu_y": "m/mm", "mu_v": "(m/s)/mm"}
 
 
 def test_both_forces_are_drawn_to_their_scales(solved: SolvedHoist) -> None:

@@ -240,6 +240,18 @@ def test_letters_are_those_of_the_sheet() -> None:
     assert speed == pytest.approx(abs(solved_with("scheme-09-shaper")["V_E"]))
 
 
+def test_numbers_and_directions_that_others_are_made_of_are_not_seen() -> None:
+    _, evaluator = construction("madi-four-bar")
+    seen = {
+        shown: {entry.get("type") for entry in evaluator.elements.values() if entry.find("show").get("object") == shown}
+        for shown in ("true", "false")
+    }
+
+    assert seen["true"] >= {"point", "vector", "segment", "text", "conic"}
+    assert seen["false"] >= {"numeric", "line", "vector"}
+    assert not seen["true"] & {"numeric", "line"}
+
+
 def test_a_label_that_is_shown_is_the_letter_and_another_letter_is_a_text() -> None:
     written, _ = construction("nau-slider-crank")
     raised = {item.label for item in written.board.items if "^" in written.words.symbol(role(item.name).shown)}

@@ -14,7 +14,7 @@ import pytest
 
 from kulman import check
 from kulman.drawing.linkages.reading import read
-from kulman.drawing.shapes import Text
+from kulman.drawing.shapes import Group, Line, Text
 from kulman.plans.board import POSITION
 from kulman.plans.marking.answers import Verdict
 from kulman.plans.marking.lines import Drawn, Letter
@@ -312,10 +312,13 @@ def test_a_marked_drawing_is_plain_data_too(tmp_path: Path, run: Run) -> None:
     assert {line["verdict"] for line in said["lines"]} <= {"right", "missing"}
 
 
-def test_letters_of_a_drawing_lie_under_its_verdicts_as_high_as_they_are_but_no_higher_than_twenty_mm() -> None:
-    letters = (Letter("A", 5.0 + 5.0j, 3.5), Letter("B", 9.0 + 5.0j, 300.0))
-    drawn = Drawn(np.array([0j]), np.array([10.0 + 10.0j]), letters)
+def test_lines_and_letters_of_a_drawing_lie_under_its_verdicts_as_far_as_it_is_shown() -> None:
+    letters = (Letter("A", 5.0 + 5.0j, 3.5), Letter("B", 9.0 + 5.0j, 300.0), Letter("C", 12.0 + 5.0j, 3.5))
+    drawn = Drawn(np.array([0j, 1j, 9.0 + 0j]), np.array([10.0 + 10.0j, 11.0 + 0j, 9.0 + 8.0j]), letters)
 
-    shown = {shape.markup: shape.height for shape in _under(drawn, (0.0, 0.0, 10.0, 10.0)) if isinstance(shape, Text)}
+    lines, *texts = _under(drawn, (0.0, 0.0, 10.0, 10.0))
 
-    assert shown == {"A": 3.5, "B": 20.0}
+    assert isinstance(lines, Group)
+    assert [(line.a, line.b) for line in lines.shapes if isinstance(line, Line)] == [(0j, 10 + 10j), (9 + 0j, 9 + 8j)]
+    # as high as they are, but no higher than 20 mm
+    assert {shape.markup: shape.height for shape in texts if isinstance(shape, Text)} == {"A": 3.5, "B": 20.0}
