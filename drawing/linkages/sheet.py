@@ -21,13 +21,26 @@ from ...plans.quantities import plans_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Fixed, Scale, Segment, steps
-from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, in_any_order, last, on_one_page
+from ..compose import (
+    GROUP,
+    PART,
+    PIECES,
+    TEXT,
+    Drawn,
+    Pages,
+    arrange,
+    begins_of,
+    compose,
+    in_any_order,
+    last,
+    on_one_page,
+)
 from ..extents import Rungs
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, Norm, printable, room
 from ..packing import Placement, Size
 from ..page import DATA, STATEMENT, TASK
-from ..tables import narrower, paged, text_block
+from ..tables import narrower, paged, part_of, text_block
 from ..view import View, numbered
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
@@ -51,7 +64,7 @@ Found = tuple[list[View], Rungs, list[Placement]]
 GROUPS_APART = 2  # from so many groups on each plan has equations and tables of its own
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 MOST = 2  # texts and tables that may stand beside the statement of a task
-NARROWER = 0.85, 0.7  # of their usual width may texts have that stand beside plans on a page of their own
+NARROWER = 0.85, 0.7, 0.6, 0.5  # of their usual width may texts have that stand beside plans on a page of their own
 WRITTEN = 8.0  # mm of a row in which an answer is written by hand
 LEAF, COARSER = 2, 4  # pages of a leaf; scale factors that are tried for them
 ROUNDS = 2  # of changes that are tried of each plan for the sake of even pages
@@ -337,7 +350,8 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | Non
             plan = plans.get(symbol, POSITION)
             figure = replace(extents_of(contents.solved, contents.choosers, (plan,)), texts=0.0)
             alone[symbol] = figure.mu(symbol, next(ways_of(figure, None))[1])
-            steps_of[symbol] = ladders[symbol].values[wanted[symbol] :][:COARSER]
+            values = ladders[symbol].values[wanted[symbol] :]
+            steps_of[symbol] = [mu for k, mu in enumerate(values) if k < COARSER or mu <= MUCH * alone[symbol]]
 
     def coarser(by: Sequence[int]) -> list[float]:
         return sorted((mus[k] / alone[s] for k, (s, mus) in zip(by, steps_of.items(), strict=True)), reverse=True)
@@ -345,11 +359,12 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[_Fitting, Found] | Non
     every = sorted(product(*(range(len(mus)) for mus in steps_of.values())), key=coarser)
     near = [by for by in every if max(coarser(by), default=1.0) <= MUCH]
     # a leaf, or a page for each plan where plans would be much smaller on it, or whatever a leaf can hold
-    for tried, pages in ((near, LEAF), (near, 1 + len(contents.plans)), (every, LEAF)):
+    ways = (near, LEAF, False), (near, LEAF, True), (near, 1 + len(contents.plans), False), (every, LEAF, True)
+    for tried, pages, parted in ways:
         for by in tried:
             rungs = wanted | {symbol: wanted[symbol] + k for symbol, k in zip(steps_of, by, strict=True)}
             with suppress(InputError):
-                found = _stated(fitting, printable(sheet), rungs)
+                found = _stated(fitting, printable(sheet), rungs, parted)
                 if found is not None and last(found[2]) < pages and found[1] == rungs:
                     return fitting, found
     return None
@@ -368,11 +383,12 @@ def _page(fitting: _Fitting, views: Sequence[View], sheet: Format) -> tuple[list
     return [view.size for view in views], sheet, fitting.contents.norm, begins_of(views)
 
 
-def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs, parted: bool = False) -> Found | None:
     """Place the statement of the task before the work: on one page, on two, or on as many as they take.
 
     Of two the first has the statement, the second one the plans, their tables and as many texts as it has room for,
-    which become narrower, if need be.
+    which become narrower, if need be. Where that is not enough, and they may be `parted` from their plans, these texts,
+    too, stand or begin on the first.
     """
     work, taken = fitting.fitted(sheet, rungs)
     stated = [*fitting.statements(sheet, taken)]
@@ -386,7 +402,8 @@ def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     order = [*range(len(begins))]
     if (places := on_one_page(ways[0].sizes, sheet, norm, begins)) is not None:
         return every[0], taken, places
-    texts = [i for i in order[len(STATEMENT) :] if begins[i] == TEXT]
+    told = [i for i in order[len(STATEMENT) :] if parted and every[0][i].lines]
+    texts = [i for i in order[len(STATEMENT) :] if begins[i] == TEXT or i in told]
     beside = (some for count in range(MOST + 1) for some in combinations(texts, count))
     for some, (views, pages) in product(beside, zip(every, ways, strict=True)):
         first = [i for i in order if i < len(STATEMENT) or i in some]
@@ -394,10 +411,27 @@ def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs) -> Found | None:
         if (own := pages.tried(first, 0)) is not None and (others := pages.tried(rest, 1)) is not None:
             placed = dict(zip((*first, *rest), (*own, *others), strict=True))
             return views, taken, [placed[i] for i in order]
+    goes_on = fitting.contents.words["heading.continued"]
+    for views, i in product(every[: len(stated)], told):
+        for begun in _begun(views, i, goes_on):
+            pages, first = Pages([view.size for view in begun], sheet, norm, begins_of(begun)), len(STATEMENT) + 1
+            if (own := pages.tried(range(first), 0)) is not None:  # as much of it as there is room for
+                if (others := pages.tried(range(first, len(begun)), 1)) is not None:
+                    return begun, taken, own + others
+                break
     usual = zip(every[: len(stated)], ways, strict=False)
     found = next((views for views, pages in usual if pages.tried(order[:3], 0)), every[len(stated) - 1])
     places = arrange([view.size for view in found], sheet, norm, begins)
     return None if places is None else (found, taken, places)
+
+
+def _begun(views: Sequence[View], i: int, goes_on: str) -> Iterator[list[View]]:
+    """Go through the views with first lines of a text after the statement, the most first, its rest at its place."""
+    text, begin = views[i], len(STATEMENT)
+    heading = "".join(text.heading)
+    for count in range(text.pieces - PIECES, PIECES - 1, -1):
+        rest = part_of(text, count, text.pieces, goes_on.format(heading=heading))
+        yield [*views[:begin], part_of(text, 0, count, heading), *views[begin:i], rest, *views[i + 1 :]]
 
 
 def _begins(views: Sequence[View]) -> list[int]:

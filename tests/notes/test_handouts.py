@@ -215,10 +215,16 @@ CRUSHER = ("scheme-14-jaw-crusher", "4", {"l_OA": "38 mm", "l_BD": 330, "phi": 1
 SHAPER, PRESS = ("scheme-09-shaper", "1", {}, 2), ("scheme-13-toggle-press", "4", {}, 3)
 LEAF = [(name, None, {}, 2) for name in (TASK, "scheme-03-crank-rocker", "scheme-17-sewing-machine")]
 SMALL = ("scheme-05-articulated-rod", "4", {}, 2), ("scheme-15-lever-shears", "8", {}, 2)  # with a smaller scheme
+# equations that begin on the first page, that are yet narrower, and plans two steps coarser than those that fit first
+TIGHT = [
+    ("scheme-20-press-automaton", "1", {}, 2),
+    ("scheme-10-shaper-two-blocks", "2", {}, 2),
+    ("scheme-08-planer", "9", {}, 2),
+]
 
 
 @pytest.mark.parametrize(
-    ("task", "variant", "settings", "most"), some([CRUSHER, SHAPER, PRESS, *LEAF, *SMALL], 0, 1, 5, 6)
+    ("task", "variant", "settings", "most"), some([CRUSHER, SHAPER, PRESS, *LEAF, *SMALL, *TIGHT], 0, 1, 5, 6, 8)
 )
 def test_a_plan_is_not_much_smaller_beside_another_than_alone_on_a_blank(
     task: str, variant: str | None, settings: dict[str, Any], most: int
