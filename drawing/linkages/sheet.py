@@ -414,9 +414,9 @@ def _stated(fitting: _Fitting, sheet: Format, rungs: Rungs, parted: bool = False
     goes_on = fitting.contents.words["heading.continued"]
     for views, i in product(every[: len(stated)], told):
         for begun in _begun(views, i, goes_on):
-            pages, first = Pages([view.size for view in begun], sheet, norm, begins_of(begun)), len(STATEMENT) + 1
-            if (own := pages.tried(range(first), 0)) is not None:  # as much of it as there is room for
-                if (others := pages.tried(range(first, len(begun)), 1)) is not None:
+            pages, lead = Pages([view.size for view in begun], sheet, norm, begins_of(begun)), len(STATEMENT) + 1
+            if (own := pages.tried(range(lead), 0)) is not None:  # as much of it as there is room for
+                if (others := pages.tried(range(lead, len(begun)), 1)) is not None:
                     return begun, taken, own + others
                 break
     usual = zip(every[: len(stated)], ways, strict=False)
