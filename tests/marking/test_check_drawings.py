@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman import check
+from kulman import check, sheet
 from kulman.drawing.linkages.reading import read
 from kulman.drawing.shapes import Group, Line, Text
 from kulman.plans.board import POSITION
@@ -160,6 +160,24 @@ def test_a_scale_factor_that_does_not_fit_the_plan_is_a_scale_error(tmp_path: Pa
     assert found.marking.first_wrong == "V_A"
     assert verdicts(found)["V_A"] is Verdict.SCALE
     assert verdicts(found)["a_B"] is Verdict.RIGHT
+
+
+@pytest.mark.parametrize("variant", some(["4", "0"], 0))
+def test_the_scale_factor_of_a_detail_is_not_that_of_its_plan(tmp_path: Path, variant: str) -> None:
+    """Points of the acceleration plan crowd on the sheet of variant 4: it has them in a detail, too."""
+    only, file = "velocity,acceleration", tmp_path / "own.svg"
+    drawn = sheet("scheme-09-shaper", variant, only=only)
+    drawn.save(file)
+    ready, _ = asked("scheme-09-shaper", variant=variant, only=only)
+
+    found = marked(ready, file)
+
+    assert ('class="enlarged"' in file.read_text(encoding="utf-8")) == (variant == "4")
+    assert found.seen is not None
+    assert {plan: found.seen.mus[plan] for plan in found.seen.written} == {
+        plan: pytest.approx(drawn.scales[plan].mu) for plan in only.split(",")
+    }
+    assert set(verdicts(found).values()) == {Verdict.RIGHT}
 
 
 def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:

@@ -150,7 +150,10 @@ def _told(drawn: Drawn, key: Keyed) -> Told:
 
 
 def _beside(plan: str, told: Told, found: Recognised) -> float | None:
-    """Return the scale factor that is written for a plan: of several the nearest to its pole, if to no other's."""
+    """Return the scale factor that is written for a plan: of several the nearest to its pole, if to no other's.
+
+    Those that do not fit are of a detail where one does.
+    """
     own = found.plans[plan]
     near = [
         one
@@ -161,7 +164,8 @@ def _beside(plan: str, told: Told, found: Recognised) -> float | None:
             if one in told[name]
         )
     ]
-    return min(near, key=lambda one: abs(one[0] - own.pole))[1].nearest(own.mu) if near else None
+    far = [(abs(at - own.pole), mu.nearest(own.mu)) for at, mu in near]
+    return min([(abs(mu - own.mu) > LIKE * own.mu, away, mu) for away, mu in far])[2] if far else None
 
 
 def _factor(text: str, units: tuple[str, str]) -> Mu | None:
