@@ -9,6 +9,7 @@ numbers are known. A vector is its size: a turn by 90 degrees leaves it.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -32,11 +33,10 @@ MOST = 10  # more digits than that would be rounding noise
 ENOUGH = 3  # significant digits, which any segment that can be read should show
 FEWEST = 2  # of what small segments show
 HUNDREDTHS, LONG = 2, 100.0  # decimals of a segment, mm: a ruler reads no more; from where on it has one less
-# digits of a result, and most digits of what goes into it, where segments of the sheet do and where none does
-MEASURED, FREE = ((DIGITS, 6), (3, 6), (FEWEST, 6)), ((DIGITS, DIGITS + MOST),)
 AS_TOLD = 0  # instead of a number of digits: as many as the sheet prints elsewhere
 AS_PRINTED = -1  # instead of decimals of a result: what the printed numbers give, with a digit more than usual
 FINEST = 12  # decimals; what is smaller still is 0
+SLACK = 5.0  # of the last digit, by which what printed numbers give may miss what is solved
 READABLE = 1.0  # mm; of a shorter segment hundredths may be too few to tell its value
 TIE = 1e-9  # of the last digit, by which what is reckoned may miss a half
 POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
@@ -245,38 +245,30 @@ def _written(factor: Factor) -> str:
 class Input:
     """A number that goes into a printed calculation.
 
-    One that is `exact` (a given, a scale factor) is printed as it is; one measured on the sheet has `places`
-    decimals, as many as its ruler shows; what the sheet prints elsewhere stands there as `told`. In a formula it is
-    called by its `name`, a `sign` follows its number, and its law takes one of `times` of it.
+    One that is `exact` (a given, a scale factor) is printed as it is; what the sheet prints elsewhere stands there as
+    `told`, and never otherwise if it is `fixed`. In a formula it is called by its `name`, a `sign` follows its number,
+    and its law takes one of `times` of it.
     """
 
     value: float
     exact: bool = False
-    places: int | None = None
+    fixed: bool = False
     name: str = ""
     sign: str = ""
     times: float = 1.0
     told: str = ""
 
-    def decimals(self, digits: int) -> int | None:
-        """Return how many decimals show it with so many digits."""
-        if self.exact:
-            return None
-        return self.places if self.places is not None else decimals_for(self.value, digits or DIGITS)
-
     def printed(self, digits: int) -> float:
         """Return it as it is printed with so many digits, or as it is `AS_TOLD`."""
         if self.told and digits == AS_TOLD:
             return number_of(self.told)
-        decimals = self.decimals(digits)
-        return self.value if decimals is None else rounded(self.value, decimals)
+        return self.value if self.exact else rounded(self.value, decimals_for(self.value, digits or DIGITS))
 
     def text(self, words: Words, digits: int) -> str:
         """Return its number with so many digits, or as it is `AS_TOLD`."""
-        decimals = self.decimals(digits)
         if self.told and digits == AS_TOLD:
             return self.told
-        return words.short(self.value) if decimals is None else words.number(self.value, decimals)
+        return words.short(self.value) if self.exact else value_text(words, self.value, digits or DIGITS)
 
 
 def decimals_for(value: float, digits: int = DIGITS) -> int:
@@ -308,42 +300,43 @@ def segment_text(words: Words, segment: float) -> str:
     return words.number(segment, ruler_decimals(words, segment))
 
 
-def read_off(
-    words: Words, value: float, mu: float, readable: float = READABLE, fewest: int = FEWEST
-) -> tuple[str, str]:
-    """Return a segment that shows a value at the scale factor `mu`, and the value, so that segment * mu is the value.
+def read_off(words: Words, value: float, mu: float, readable: float = READABLE) -> tuple[str, str]:
+    """Return a segment that shows a value at the scale factor `mu`, as a ruler reads it, and their product.
 
-    The value has as many digits as the segment shows; where even its units are more than that, it is their product.
-    Where a ruler's decimals leave it fewer than three, the segment has one more. Of what is shorter than `readable`
-    and too short for the `fewest` digits there is no segment.
+    Of what is shorter than `readable` and has fewer than two digits there is no segment.
     """
     segment = abs(value) / mu
     if segment < POINT:
         return segment_text(words, 0.0), words.number(0.0, 0)
-    usual = ruler_decimals(words, segment)
-    ways = [(usual, *_at_length(value, mu, usual))]
-    if not words.ruler and segment >= READABLE and ways[0][-1] < decimals_for(value, ENOUGH):
-        ways.append((usual + 1, *_at_length(value, mu, usual + 1)))
-    places, shown, decimals = max(ways, key=lambda way: way[-1])
-    if segment < readable and (shown == rounded(segment, places) * mu or decimals < decimals_for(value, fewest)):
+    mm = segment_text(words, segment)
+    digits = len(re.sub(r"\D", "", mm).lstrip("0"))
+    if segment < readable and digits < FEWEST:
         return "", value_text(words, abs(value))
-    return words.number(segment, places), words.number(shown, decimals)
+    return mm, shortest(words, number_of(mm) * mu, digits)
 
 
-def _at_length(value: float, mu: float, places: int) -> tuple[float, int]:
-    """Return a value, and its decimals, as its segment with so many decimals of a mm gives it."""
-    return _agreed(abs(value), rounded(abs(value) / mu, places) * mu)
+def shortest(words: Words, value: float, digits: int = DIGITS) -> str:
+    """Return a value with so many digits, or with more of the five that it has at most, where it is not rounded."""
+    most = decimals_for(value, DIGITS + 1)
+    places = range(min(decimals_for(value, digits), most), most + 1)
+    return words.number(value, next(d for d in places if rounded(value, d) == rounded(value, most)))
 
 
 def laid_off(words: Words, value: float, mu: float, known: str) -> str:
     """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
 
-    It has hundredths of a mm where a ruler's tenths are too coarse for the number.
+    It is as long as it is drawn, to the last digit that a ruler shows. It has one digit more than a ruler where a
+    number could not be told from others, and still one more where the number has no more than three digits.
     """
     segment = abs(value) / mu
-    for decimals in (ruler_decimals(words, segment), ruler_decimals(words, 0.0)):
-        if recomputes(rounded(segment, decimals) * mu, known):
-            return words.number(segment, decimals)
+    usual, finest = ruler_decimals(words, segment), ruler_decimals(words, 0.0)
+    few = segment >= READABLE and len(re.sub(r"\D", "", known).lstrip("0")) <= ENOUGH
+    for decimals in range(usual, finest + 1 + few):
+        here, step = rounded(segment, decimals), 10.0**-decimals
+        beside = (here - step, here + step, rounded(number_of(known) / mu, decimals)) if decimals >= finest else ()
+        for mm in (here, *beside):
+            if abs(mm - segment) <= 10.0**-usual * (1.0 + TIE) and recomputes(mm * mu, known):
+                return words.number(mm, decimals)
     return ""
 
 
@@ -354,21 +347,12 @@ def number_of(text: str) -> float:
 
 def recomputes(reckoned: float, text: str) -> bool:
     """Whether a printed number is what other printed ones give, rounded as usual."""
-    return _agree(reckoned, number_of(text), len(text.replace(",", ".").partition(".")[2]))
+    return _agree(reckoned, number_of(text), places_of(text))
 
 
-def _agreed(value: float, reckoned: float, digits: int = DIGITS) -> tuple[float, int]:
-    """Return a value, and its decimals, so that it is as `reckoned` from printed numbers: with fewer digits, or that.
-
-    It has at most so many significant `digits`, and one more where the reckoned number is in the middle of two.
-    """
-    most = decimals_for(value, digits)
-    for decimals in range(most, -1, -1):
-        if _agree(reckoned, value, decimals):
-            return value, decimals
-        if _halfway(reckoned, value, decimals):
-            return reckoned, decimals + 1
-    return reckoned, 0
+def places_of(text: str) -> int:
+    """Return how many decimals a printed number has."""
+    return len(text.replace(",", ".").partition(".")[2])
 
 
 def _agree(reckoned: float, value: float, decimals: int) -> bool:
@@ -377,63 +361,68 @@ def _agree(reckoned: float, value: float, decimals: int) -> bool:
     return -HALF - TIE <= over < HALF - TIE
 
 
-def _halfway(reckoned: float, value: float, decimals: int) -> bool:
-    """Whether what printed numbers give is in the middle between a value with so many decimals and another number."""
-    return abs(abs(reckoned - rounded(value, decimals)) * 10.0**decimals - HALF) <= TIE
-
-
 def calculation(
     words: Words,
     law: Callable[..., float],
     inputs: Sequence[Input],
     wanted: int | None = None,
-    read: float | None = None,
+    fits: Callable[[str], bool] | None = None,
+    same: str = "",
 ) -> tuple[list[str], str]:
     """Return the printed inputs and the printed result of a calculation, such that it recomputes.
 
-    Inputs are as the sheet tells them, or have as many digits as it takes for the result to come out to its last
-    printed digit; where segments of the sheet do not allow that, the result has fewer digits, or is what the printed
-    numbers give. It has the digits with which a plan shows it where what is `read` there is said, or a `wanted` number
-    of decimals, or is `AS_PRINTED`.
+    Inputs that the sheet tells elsewhere are as they are there, and then the result is what they give, with as many
+    digits as its segment `fits`, or as it has in common with one that is the `same`; its last but one is right. Other
+    inputs have as many digits as it takes for the result to come out. It has a `wanted` number of decimals, or is
+    `AS_PRINTED`.
     """
-    values, digits = [one.value for one in inputs], [AS_TOLD] * len(inputs)
-    if wanted == AS_PRINTED:
-        return _texts(words, inputs, digits), value_text(words, as_printed(law, inputs), DIGITS + 1)
-    result, numbers = law(*values), _Numbers(inputs)
-    measured = read is not None or any(one.places is not None for one in inputs)
-    for last, most in MEASURED if measured else FREE:
-        decimals = decimals_for(result, last) if wanted is None else wanted
-        if read is not None and not (_agree(read, abs(result), decimals) or _halfway(read, abs(result), decimals)):
-            continue
-        for digits in _digits(inputs, most):
-            with suppress(ArithmeticError, ValueError):  # numbers that are rounded to nothing may give none at all
-                reckoned = law(*numbers.with_digits(digits))
-                if _agree(reckoned, result, decimals):
-                    return _texts(words, inputs, digits), words.number(result, decimals)
-                if (
-                    measured
-                    and wanted is None
-                    and _halfway(reckoned, result, decimals)
-                    and read in (None, abs(reckoned))
-                ):
-                    return _texts(words, inputs, digits), words.number(reckoned, decimals + 1)
-    if read is not None:  # no digits of it agree
-        return calculation(words, law, inputs, wanted)
-    with suppress(ArithmeticError, ValueError):
-        reckoned = law(*numbers.with_digits(digits))
-        result, decimals = _agreed(result, reckoned, FEWEST) if wanted is None else (reckoned, wanted)
-        ways = (own for own in _digits(inputs, most) if _agree(law(*numbers.with_digits(own)), result, decimals))
-        digits = next(ways, digits)  # the fewest that give as much
+    if inputs and all(one.fixed for one in inputs):
+        reckoned = as_printed(law, inputs)
+        if same:
+            most, known = places_of(same), number_of(same)
+            alike = (n for n in range(most, -1, -1) if rounded(abs(reckoned), n) == rounded(known, n))
+            text = words.number(reckoned, next(alike, most))
+        elif wanted is None or wanted == AS_PRINTED:
+            text = _as_it_fits(words, reckoned, law, inputs, DIGITS + (wanted == AS_PRINTED), fits)
+        else:
+            text = words.number(reckoned, wanted)
+        return _texts(words, inputs, [AS_TOLD] * len(inputs)), text
+    result, numbers = law(*(one.value for one in inputs)), _Numbers(inputs)
+    decimals = decimals_for(result) if wanted is None else wanted
+    for digits in _digits(inputs):
+        with suppress(ArithmeticError, ValueError):  # numbers that are rounded to nothing may give none at all
+            if _agree(law(*numbers.with_digits(digits)), result, decimals):
+                break
     return _texts(words, inputs, digits), words.number(result, decimals)
 
 
+def _as_it_fits(
+    words: Words,
+    reckoned: float,
+    law: Callable[..., float],
+    inputs: Sequence[Input],
+    most: int,
+    fits: Callable[[str], bool] | None,
+) -> str:
+    """Return what printed numbers give with as many digits as its segment fits, the last but one of which is right.
+
+    Of what follows from exact numbers alone there is one digit more where it is not rounded.
+    """
+    right, usual = law(*(one.value for one in inputs)), value_text(words, reckoned, most)
+    usual = shortest(words, reckoned) if all(one.exact for one in inputs) else usual
+    ways = [usual, *(value_text(words, reckoned, digits) for digits in range(DIGITS, 0, -1))]
+    if most == DIGITS:  # with more it is to be compared with what is found another way
+        ways = [way for way in ways if abs(number_of(way) - right) <= SLACK * 10.0 ** -places_of(way)] or ways
+    return next(filter(fits, ways), ways[0])
+
+
 def as_printed(law: Callable[..., float], inputs: Sequence[Input]) -> float:
-    """Return what the printed numbers of a calculation give, with a digit more than usual."""
+    """Return what the printed numbers of a calculation give, without the noise of reckoning."""
     try:
         reckoned = law(*(one.printed(AS_TOLD) for one in inputs))
     except ArithmeticError:  # a divisor that is rounded to nothing
         reckoned = law(*(one.value for one in inputs))
-    return rounded(reckoned, decimals_for(reckoned, DIGITS + 1))
+    return rounded(reckoned, decimals_for(reckoned, MOST))
 
 
 class Shown(NamedTuple):
@@ -460,16 +449,16 @@ def worked(words: Words, name: str, law: str, inputs: Sequence[Input], shown: Sh
     return f"{words.symbol(name)} = {formula}", f"= {reckoned}", said
 
 
-def _digits(inputs: Sequence[Input], most: int) -> Iterator[list[int]]:
+def _digits(inputs: Sequence[Input]) -> Iterator[list[int]]:
     """Go through the digits of inputs: as they are told, one or two with more digits than the others, all with more."""
     count = len(inputs)
     yield [AS_TOLD] * count
-    free = [i for i, one in enumerate(inputs) if not one.exact and one.places is None]
+    free = [i for i, one in enumerate(inputs) if not one.exact and not one.fixed]
     for some in (1, 2):
         for more in range(DIGITS + 1, ONE_WITH + 1):
             yield from ([more if i in finer else AS_TOLD for i in range(count)] for finer in combinations(free, some))
         yield [DIGITS] * count
-    yield from ([more] * count for more in range(DIGITS + 1, most + 1))
+    yield from ([more] * count for more in range(DIGITS + 1, DIGITS + MOST + 1))
 
 
 class _Numbers(dict[tuple[int, int], float]):

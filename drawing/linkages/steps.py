@@ -22,7 +22,7 @@ from ...plans.quantities import point_of, unit_of
 from ..figure import GIVEN
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
-from ..printed import DIGITS, Input, calculation, value_text
+from ..printed import Input, calculation, number_of
 from .asking import meanings
 from .calculations.equations import (
     Factor,
@@ -30,6 +30,7 @@ from .calculations.equations import (
     factor,
     kinematics_lines,
     noted,
+    number,
     operand,
     printed_segment,
     rate_of,
@@ -39,7 +40,7 @@ from .calculations.equations import (
     stated,
     worked,
 )
-from .calculations.forces import LOADS, balance, differ, force_lines, force_parts, lines_by_plan
+from .calculations.forces import LOADS, differ, force_lines, force_parts, lines_by_plan
 from .figures.compound import At, figures_of
 from .figures.plan import ENLARGED
 from .ladders import links_apart
@@ -200,7 +201,8 @@ def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
 
 def _product(scene: Scene, name: str, *factors: Factor) -> Line:
     """Return a quantity as a product of magnitudes."""
-    return worked(scene.words, scene.words.symbol(name), [Product(factors)], unit_of(name))
+    same = number(scene, name) if name in scene.quantities else ""
+    return worked(scene.words, scene.words.symbol(name), [Product(factors)], unit_of(name), same=same)
 
 
 def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Line:
@@ -209,8 +211,9 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     terms = [(other, turn) for other, turn in ((first, 1.0), (second, sign)) if other != ZERO]
     signs = ["" if i == 0 and turn > 0 else "+ " if turn > 0 else "− " for i, (_, turn) in enumerate(terms)]
     formula = " ".join(f"{sign}{words.symbol(other)}" for sign, (other, _) in zip(signs, terms, strict=True))
-    inputs = [Input(float(values[other]) * turn) for other, turn in terms]
-    texts, result = calculation(words, lambda *x: sum(x), inputs)
+    signed = [("−" * (float(values[other]) * turn < 0.0) + number(scene, other)) for other, turn in terms]
+    inputs = [Input(number_of(text), fixed=True, told=text) for text in signed]
+    texts, result = calculation(words, lambda *x: sum(x), inputs, same=number(scene, name))
     numbers = " ".join([texts[0], *(f"− {text[1:]}" if text.startswith("−") else f"+ {text}" for text in texts[1:])])
     head = f"{words.symbol(name)} = {formula} =", *([f"{numbers} ="] if len(terms) > 1 else [])
     return noted((*head, f"{result} {words.unit(unit_of(name))}"), sensed(words, float(values[name])))
@@ -313,8 +316,8 @@ def begun(scene: Scene, steps: int, plans: Collection[str]) -> dict[str, Shown]:
 def drawn_by(teller: Teller, view: str, every: Sequence[Told], steps: int) -> dict[str, bool]:
     """Return for the steps of a view by name whether they are among the first ones."""
     drawn, before = dict[str, bool](), ""
-    for number, told in enumerate(every, 1):
-        drawn |= dict.fromkeys((told.step.name, *told.others), told.before or number <= steps)
+    for count, told in enumerate(every, 1):
+        drawn |= dict.fromkeys((told.step.name, *told.others), told.before or count <= steps)
     for step in teller.program.on(view):  # what nothing is said of is drawn with what stands before it
         before = step.name if step.name in drawn else before
         drawn.setdefault(step.name, drawn.get(before, True))  # before all of them: it is given
@@ -415,14 +418,15 @@ def _balance(teller: Teller, name: str) -> Iterator[str]:
 
 
 def _compared(teller: Teller, name: str) -> Iterator[str]:
-    words, quantities, found = teller.words, teller.quantities, balance(teller)
-    by_lever = f"{name}_lever"
-    if name not in found or by_lever not in found or found[name] == found[by_lever] == 0.0:
+    words, quantities, by_lever = teller.words, teller.quantities, f"{name}_lever"
+    if name not in quantities or by_lever not in quantities:
+        return
+    found = {"value": number(teller, name), "lever": number(teller, by_lever)}
+    if not any(map(number_of, found.values())):
         return
     said = {"symbol": words.symbol(name), "other": words.symbol(by_lever)}
-    for key, one in (("value", name), ("lever", by_lever)):
-        said[key] = f"{value_text(words, found[one], DIGITS + 1)} {words.unit(quantities[one].unit)}"
-    yield teller.texts["note.balance"].format(part=differ(teller, found)[0], **said)
+    said |= {key: f"{text} {words.unit(quantities[name].unit)}" for key, text in found.items()}
+    yield teller.texts["note.balance"].format(part=differ(teller)[0], **said)
 
 
 def _angles(teller: Teller) -> Iterator[str]:

@@ -120,7 +120,7 @@ def test_a_second_crank_is_marked_beyond_the_shaft_on_every_plan(lang: str) -> N
 
 
 def test_a_segment_that_is_too_short_to_be_measured_is_no_factor(tmp_path: Path) -> None:
-    written = kulman.note("bertyaev-six-bar", lang="en", scales={"mu_V": 0.05}).save(tmp_path / "note.md")[0]
+    written = kulman.note("bertyaev-six-bar", lang="en", scales={"mu_V": 0.2}).save(tmp_path / "note.md")[0]
     text = written.read_text("utf-8")
     assert not re.search(r"= *[·/]", text)
     assert "too short to be measured" in text

@@ -255,7 +255,7 @@ def test_the_examiner_sees_a_spoiled_sheet(judge: Callable[[Case, Sheet], Iterat
 
 
 def test_a_wrong_digit_is_seen() -> None:
-    spoiled = moved(A1, r"(= 2,5·240,9 = 602),2", r"\1,4")
+    spoiled = moved(A1, r"(= 2·221,8 = 443),6", r"\1,4")
 
     assert len(equation_faults(spoiled)[1]) == 1
 

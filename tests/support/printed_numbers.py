@@ -99,11 +99,19 @@ def lever_faults(view: View, lang: str) -> Iterator[str]:
             yield f"{symbol}: the sense of {moment} is {sense}"
 
 
-def read_to(row: Sequence[str]) -> float:
-    """Return how far a printed value may be from the exact one: by half its last digit, or as its millimetres say."""
+def read_to(row: Sequence[str], calculated: bool = False) -> float:
+    """Return how far a printed value may be from the exact one: by half its last digit, or as its millimetres say.
+
+    Of one that is calculated from others that are printed the last digit but one is right, and its millimetres are
+    those of the drawing to their last digit.
+    """
     _, mm, mu, printed = row[:4]
     near = half_digit(printed)
-    return near if mm == "–" else max(near, half_digit(mm) * value(mu) + near * (value(printed) > 100.0))  # in units
+    if mm == "–":
+        return near * (10.0 if calculated else 1.0)
+    if calculated:
+        return near + 2.0 * half_digit(mm) * value(mu) * (10.0 if value(mm) >= 100.0 and ruled(mm, "mm", 1e9) else 1.0)
+    return max(near, half_digit(mm) * value(mu) + near * (value(printed) > 100.0))  # in units
 
 
 def reactions(rows: Iterable[Sequence[str]]) -> list[tuple[tuple[str, str], tuple[str, str]]]:
@@ -130,7 +138,10 @@ def balanced(sheet: Sheet, rows: Iterable[Sequence[str]]) -> list[tuple[tuple[st
 def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[str]:
     """Rows in which mm times mu is not the value to its last digit, or which `values` (by symbol) contradict."""
     forces = [row for name in sheet.names if name.startswith("results_forces") for row in table(sheet[name])]
-    pairs, reading = [*reactions(forces), *balanced(sheet, forces)], {row[0]: read_to(row) for row in forces}
+    laid = {symbol for symbol, said in told(sheet).items() if "=" in said}  # by numbers, which are no readings
+    pairs = [*reactions(forces), *balanced(sheet, forces)]
+    reading = {row[0]: read_to(row, row[0] in laid) for row in forces}
+    yield from disagreements(sheet)
     for (symbol, printed), (other, its) in pairs:
         if printed != its:
             yield f"{symbol} = {printed}, {other} = {its}"
@@ -151,10 +162,16 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
                     yield f"{symbol}: {mm}·{mu} is not {printed}"
                 paper = head.split()[-1]  # what is laid off from plan to plan is a number, not a reading
                 if not (
-                    ruled(mm, paper) or (symbol in carried and ruled(mm, paper, math.inf)) or finer(*row[1:4], paper)
+                    ruled(mm, paper)
+                    or (symbol in (*carried, *laid) and ruled(mm, paper, math.inf))
+                    or (symbol in laid and finer(*row[1:4], paper))
                 ):
                     yield f"{symbol}: no ruler reads {mm} mm"
-            near = max(read_to(row), *(reading[other] for other in carried.get(symbol, {symbol}) & {*reading}), 0.0)
+            near = max(
+                read_to(row, symbol in laid),
+                *(reading[other] for other in carried.get(symbol, {symbol}) & {*reading}),
+                0.0,
+            )
             if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > near + 1e-9:
                 yield f"{symbol}: {printed} is not {values[symbol]}"
             numbers_of(" ".join(row), lang)
@@ -189,3 +206,61 @@ def equation_faults(sheet: Sheet) -> tuple[int, list[str]]:
                     if not recomputes(evaluate(expression), result):
                         faults.append(f"{view.name}: {expression} = {evaluate(expression)}, printed {result}")
     return count, faults
+
+
+def told(sheet: Sheet) -> dict[str, dict[str, set[str]]]:
+    """Return the numbers of quantities of a linkage, by symbol and by where they stand.
+
+    That is `=` for results of equations and `·` for what goes into others, `mm` and `row` of tables, `arm` of the
+    lever, `letter` for what stands beside a drawing. Arms and segments of plans are called by their views, too.
+    """
+    found = dict[str, dict[str, set[str]]]()
+    for view in sheet.views:
+        for place, spaced, number in _numbers_in(view):
+            symbol = spaced.replace(" ", "")
+            own = re.fullmatch(r"h.*", symbol) and "lever" in view.name
+            if own or re.fullmatch(r"([a-z]′?(_\{\d+\})?){2}", symbol):
+                symbol += f" {view.name.replace('equations_', '').replace('results_', '')}"
+            found.setdefault(symbol, {}).setdefault(place, set()).add(number.lstrip("−"))
+    return found
+
+
+def _numbers_in(view: View) -> Iterator[tuple[str, str, str]]:
+    """Go through the numbers of a view: where they stand, of which quantity."""
+    for line in lines_of(view) if view.of("line") else []:
+        plain = re.sub(r"\{[^{}]*\}", lambda script: script[0].replace(" ", ""), line)
+        head, *sides = [side.strip() for side in plain.rpartition(": ")[2].split(" = ")]
+        ends = [found[0] for side in sides if (found := re.match(rf"−?{NUMBER}(?![\d·/]| [−+])", side))]
+        if ends:
+            yield "=", head, ends[-1]
+        for letters, numbers in pairwise([head, *sides]):
+            own, its = ([part for part in re.split(r"[·/+()−\s]+", side) if part] for side in (letters, numbers))
+            if len(own) == len(its) and all(re.match(r"\d|π", part) for part in its):
+                bases = [re.sub(r"\^\{2\}", "", part) for part in (*own, *its)]
+                yield from (("·", a, b) for a, b in zip(bases, bases[len(own) :], strict=False) if a[0].isalpha())
+    rows = table(view) if view.name.startswith("results_") else []
+    for symbol, first, second, third, *_ in rows:
+        if "lever" in view.name:
+            yield from (("·", symbol, first), ("arm", second, third))
+        else:
+            yield from (("mm", symbol, first), ("row", symbol, third))
+    for text in (text for text in view.texts if text.role not in ("line", "cell")):
+        for part in text.string.split("; "):
+            *symbols, number = part.split(" = ")
+            if symbols and re.fullmatch(NUMBER, number) and number.strip("0,."):
+                yield from (("letter", symbol, number) for symbol in symbols)
+
+
+def disagreements(sheet: Sheet) -> Iterator[str]:
+    """Quantities of a linkage that equations, tables and letters tell with different digits.
+
+    Where one way to a number has given that of a table or of a drawing, another may give fewer of its digits.
+    """
+    for symbol, places in told(sheet).items():
+        row, results = places.get("row", set()), places.get("=", set())
+        numbers = set().union(*(places[place] for place in places if place not in ("row", "mm")))
+        known = row | places.get("mm", set()) or {max(numbers, key=len)}
+        longer = {one for one in known if not row or one in results}
+        for number in numbers - known:
+            if number not in results or not any(recomputes(value(one), number) for one in longer):
+                yield f"{symbol} = {number}, elsewhere {sorted(known)}"

@@ -19,8 +19,6 @@ from ....plans.quantities import Quantity, unit_of
 from ....scales.scale import Scale
 from ...printed import (
     AS_TOLD,
-    DIGITS,
-    FEWEST,
     POINT,
     READABLE,
     Input,
@@ -28,10 +26,10 @@ from ...printed import (
     as_printed,
     calculation,
     laid_off,
-    number_of,
     read_off,
     ruler_decimals,
     segment_text,
+    shortest,
     value_text,
 )
 from ...words import Words
@@ -53,14 +51,13 @@ RATES = ("omega", "epsilon")
 class Factor:
     """A factor of a product: its symbol, its size as it is printed, whether that is exact, its power 1, 2 or -1.
 
-    A segment of the sheet has at most `places` decimals; a number that the sheet tells elsewhere is as `told`.
+    A number that the sheet tells elsewhere is as `told`.
     """
 
     symbol: str
     value: float
     exact: bool = False
     power: int = 1
-    places: int | None = None
     told: str = ""
 
     @property
@@ -72,7 +69,7 @@ class Factor:
     @property
     def input(self) -> Input:
         """What goes into a calculation."""
-        return Input(self.value, self.exact, self.places, told=self.told)
+        return Input(self.value, self.exact, fixed=True, told=self.told)
 
     @property
     def printed(self) -> float:
@@ -111,14 +108,15 @@ def worked(
     *,
     turn: float = 1.0,
     wanted: int | None = None,
-    read: float | None = None,
+    fits: Callable[[str], bool] | None = None,
+    same: str = "",
 ) -> tuple[str, ...]:
     """Return `head = formula = numbers = result unit` of a sum of products, all of them turned, perhaps divided.
 
-    The result may be `AS_PRINTED`, or have the digits with which it is `read` off a plan.
+    The result may be `AS_PRINTED`, or have as many digits as a segment `fits`, or as are those of the `same` number.
     """
     turned = (replace(product, sign=product.sign * turn) for product in products)
-    return _by_law(words, head, _quotient, (divisor or Product(()), *turned), unit, wanted, read)
+    return _by_law(words, head, _quotient, (divisor or Product(()), *turned), unit, wanted, fits, same)
 
 
 def _quotient(divisor: Any, *terms: Any) -> Any:
@@ -153,17 +151,15 @@ def _by_law(
     operands: Sequence[Product],
     unit: str,
     wanted: int | None = None,
-    read: float | None = None,
+    fits: Callable[[str], bool] | None = None,
+    same: str = "",
 ) -> tuple[str, ...]:
-    """Return `head = formula = numbers = result unit` of a law of operands each of which is a product.
-
-    The numbers are printed with as many digits as it takes for the result to come out to its last one.
-    """
+    """Return `head = formula = numbers = result unit` of a law of operands each of which is a product."""
     factors = [factor for operand in operands for factor in operand.factors]
     found, inputs = _of_factors(law, operands), _inputs(operands)
     if unit == words.display.paper:
         wanted = ruler_decimals(words, found(*(factor.value for factor in factors)))
-    texts, result = calculation(words, found, inputs, wanted, read)
+    texts, result = calculation(words, found, inputs, wanted, fits, same)
     formula, reckoned = found(*(factor.letter for factor in factors)).chunks, found(*map(Symbol.of, texts)).chunks
     formula[0] = f"{head} = {formula[0]}"
     formula[-1] += " ="
@@ -191,7 +187,7 @@ def size_by_law(
         return value.size if isinstance(value, Symbol) else abs(value)
 
     operands = [operand(scene, name) for name in step.operands]
-    return _by_law(scene.words, head, size, operands, unit, read=reading_of(scene, step.name))
+    return _by_law(scene.words, head, size, operands, unit, fits=fit_for(scene, step.name))
 
 
 def _distance(scene: Scene, made: Step) -> Product:
@@ -222,16 +218,25 @@ def factor(scene: Scene, name: str, power: int = 1) -> Factor:
     name = positive(name)
     words, plain = scene.words, role(name).shown
     value = words.display.value(size_of(scene, name), unit_of(plain))
-    item = scene.quantities.get(plain)
-    read = item is not None and (drawn_on(scene, item) in scene.scales or opposed(scene, plain) is not None)
-    told = printed_segment(scene, item)[-1] if read and item is not None and not is_given(scene, name) else ""
-    return Factor(words.symbol(plain), value, is_given(scene, name), power, told=told)
+    exact = is_given(scene, name)
+    return Factor(words.symbol(plain), value, exact, power, "" if exact else number(scene, name))
+
+
+def number(scene: Scene, name: str) -> str:
+    """Return the size of a quantity as it is printed wherever it stands: as its plan shows it, or its equation."""
+    from .forces import result_of
+
+    item = scene.quantities.get(role(name).shown)
+    if item is not None and (drawn_on(scene, item) in scene.scales or opposed(scene, item.name) is not None):
+        return printed_segment(scene, item)[-1]
+    size = size_of(scene, name) if item is None else abs(value_shown(scene, item))
+    return result_of(scene, name) or value_text(scene.words, size)
 
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
     """Return what a plan shows as a factor in the paper's unit, without its scale factor."""
     measured = scene.words.display.segment(size / scene.scales[plan].mu)
-    return Factor(symbol, measured, places=ruler_decimals(scene.words, measured))
+    return Factor(symbol, measured, told=segment_text(scene.words, measured))
 
 
 def value_shown(scene: Scene, q: Quantity) -> float:
@@ -255,43 +260,52 @@ def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str
 
 
 def _printed_segment(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
-    own = plan or drawn_on(scene, q)
-    told = _segment_on(scene, q, own)
+    own = drawn_on(scene, q)
+    if plan not in ("", own) and not scene.words.ruler:
+        return _segment_on(scene, q, plan, printed_segment(scene, q)[-1])
+    told = _segment_on(scene, q, plan or own)
     if told[0] or plan or role(own).kind != FORCES:
         return told
     others = (other for other in scene.scales if role(other).kind == FORCES and enlarged(scene, q.name, other) > 1.0)
     return next((_segment_on(scene, q, other) for other in others), told)
 
 
-def _segment_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
-    words, value = scene.words, value_shown(scene, q)
-    acting = opposed(scene, q.name)
-    known = "" if acting is None else printed_segment(scene, acting)[-1]
+def _segment_on(scene: Scene, q: Quantity, plan: str, told: str = "") -> tuple[str, str, str]:
+    from .forces import result_of
+
+    words, value, acting = scene.words, value_shown(scene, q), opposed(scene, q.name)
+    known = told or ("" if acting is None else printed_segment(scene, acting)[-1])
+    if not known and not words.ruler:  # it is laid off by its number, since it is given or has been calculated
+        known = words.short(abs(value)) if is_given(scene, q.name) else result_of(scene, q.name)
     if plan not in scene.scales:
         return "", "", known
-    scale = scene.scales[plan]
+    number, mu = _factor_on(scene, q, plan)
+    if known and abs(value) >= POINT * mu:
+        return laid_off(words, value, mu, known), number, known
+    if words.ruler and _is_laid(scene, q.name):  # it is as long as a ruler can lay it off
+        return segment_text(words, abs(value) / mu), number, result_of(scene, q.name) or value_text(words, abs(value))
+    # of an arm nothing is known but its segment
+    mm, product = read_off(words, value, mu, 0.0 if role(q.name).kind == "h" else READABLE)
+    return mm, number, product
+
+
+def _factor_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, float]:
+    """Return the scale factor with which a vector is drawn on a plan, in a detail if it is there, and its value."""
+    words, scale = scene.words, scene.scales[plan]
     short = abs(q.value or 0.0) < scene.style.arrow * scale.mu  # what is longer is in no inset
     times = enlarged(scene, q.name, plan) if short else 1.0
     number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
-    mu = 1.0 / number if words.per_unit else number
-    if known:
-        return laid_off(words, value, mu, known), words.short(number), known
-    if words.ruler and _is_laid(scene, q.name):  # it is as long as a ruler can lay it off
-        return segment_text(words, abs(value) / mu), words.short(number), value_text(words, abs(value))
-    # of an arm nothing is known but its segment; what was laid off has its value all the same
-    readable = 0.0 if role(q.name).kind == "h" else READABLE
-    mm, value_read = read_off(words, value, mu, readable, DIGITS - 1 if _is_laid(scene, q.name) else FEWEST)
-    five = float(f"{abs(value):.{DIGITS + 1}g}")
-    if (
-        words.ruler
-        and mm
-        and value
-        and all(math.isclose(five, x, rel_tol=1e-9) for x in (number_of(mm) * mu, abs(value)))
-    ):
-        # one digit more is all that the product has: what follows goes on with it
-        short = math.isclose(five, float(f"{five:.{DIGITS}g}"), rel_tol=1e-9)
-        return mm, words.short(number), value_text(words, abs(value), DIGITS + (not short))
-    return mm, words.short(number), value_read
+    return words.short(number), 1.0 / number if words.per_unit else number
+
+
+def fit_for(scene: Scene, name: str) -> Callable[[str], bool] | None:
+    """Return whether a segment on its plan can show a number of a vector; None if none shows it, or a short one."""
+    item = scene.quantities.get(role(name).shown)
+    plan = "" if item is None or scene.words.ruler else drawn_on(scene, item)
+    if item is None or plan not in scene.scales:
+        return None
+    mu, value = _factor_on(scene, item, plan)[1], value_shown(scene, item)
+    return (lambda text: bool(laid_off(scene.words, value, mu, text))) if abs(value) >= READABLE * mu else None
 
 
 def _is_laid(scene: Scene, name: str) -> bool:
@@ -301,17 +315,6 @@ def _is_laid(scene: Scene, name: str) -> bool:
         edge = scene.reading.between(*step.operands)
         return edge is not None and scene.reading.is_hung(edge)
     return step is not None and step.verb == "calc"
-
-
-def reading_of(scene: Scene, name: str) -> float | None:
-    """Return what the printed millimetres of a vector give that is laid off by its number; None if none are printed."""
-    item = scene.quantities.get(role(name).shown)
-    if item is None or drawn_on(scene, item) not in scene.scales or (scene.words.ruler and _is_laid(scene, name)):
-        return None
-    mm, mu, _ = printed_segment(scene, item)
-    if not mm:
-        return None
-    return number_of(mm) / number_of(mu) if scene.words.per_unit else number_of(mm) * number_of(mu)
 
 
 def opposed(scene: Scene, name: str) -> Quantity | None:
@@ -331,14 +334,6 @@ def _other_of_two(scene: Scene, name: str) -> str:
     names = {edge.name for edge in scene.reading.on(scene.figure_of(name))} if name in scene.quantities else set()
     others = [other for other in names - {name} if role(other).kind == "R" and scene.made[other].law == "opposite"]
     return others[0] if len(names) == len(others) + 1 == 2 else ""
-
-
-def measured(scene: Scene, name: str) -> Factor:
-    """Return a value as the tables print it, one that was read off a plan as its millimetres say."""
-    item = scene.quantities.get(name)
-    if item is None or (drawn_on(scene, item) not in scene.scales and opposed(scene, name) is None):
-        return factor(scene, name)
-    return Factor(scene.words.symbol(name), number_of(printed_segment(scene, item)[-1]), exact=True)
 
 
 def is_given(scene: Scene, name: str) -> bool:
@@ -426,7 +421,7 @@ def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -
     if "velocity" in (*plans, *before):
         return lines
     given = (step for step in steps if step.law == "signed" and role(step.name).kind == "omega")
-    return [*(line for step in given for line in _turning_alike(scene, step)), *lines]  # the crank's omega alone
+    return [*(line for step in given for line in turning_alike(scene, step)), *lines]  # the crank's omega alone
 
 
 def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> Lines:
@@ -446,7 +441,7 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
         elif step.law == "given":
             lines.append(_given(scene, step))
         elif step.law in ("signed", "same_turning"):
-            lines += _turning_alike(scene, step)
+            lines += turning_alike(scene, step)
         elif step.verb in ("divide", "similar"):
             lines += _similarity(scene, step)
         elif step.verb == "read":
@@ -482,7 +477,7 @@ def _lengths(scene: Scene, step: Step, told: set[str]) -> Iterator[tuple[str, ..
         if role(made.operands[0]).hidden:
             yield (stated(scene.words, symbol, size_of(scene, name), "m"),)
         else:
-            yield worked(scene.words, symbol, [_distance(scene, made)], "m")
+            yield worked(scene.words, symbol, [_distance(scene, made)], "m", same=number(scene, name))
 
 
 def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
@@ -506,15 +501,18 @@ def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
     return line
 
 
-def _turning_alike(scene: Scene, step: Step) -> Lines:
+def turning_alike(scene: Scene, step: Step) -> Lines:
     """Return a rate that is given, from revolutions per minute where it is so, or that of another link."""
     words, value, given = scene.words, rate_of(scene, step.name), scene.givens.get(step.operands[0])
     symbol, of, unit = words.symbol(step.name), words.symbol(step.operands[0]), unit_of(step.name)
     if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
-        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [Input(given.value, exact=True)])
+        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [Input(given.value, exact=True, fixed=True)])
         line = [f"{symbol} = π{of}/30 =", f"π·{texts[0]}/30 =", f"{result} {words.unit(unit)}"]
     else:
-        line = [stated(words, f"{symbol} = {of}" if step.law == "same_turning" else symbol, abs(value), unit)]
+        head, size = symbol, shortest(words, abs(value))
+        if step.law == "same_turning":
+            head, size = f"{symbol} = {of}", number(scene, step.operands[0])
+        line = [f"{head} = {size} {words.unit(unit)}"]
     return [noted(line, sensed(words, value))]
 
 
@@ -554,7 +552,10 @@ def _similarity(scene: Scene, step: Step) -> Lines:
     a, b, s = map(words.mark, (start, end, step.name))
     ab = segment(scene, f"{a}{b}", step.plan, scene.span(start, end, step.plan))
     ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
-    return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
+    edge = scene.reading.between(start, step.name)
+    drawn = None if edge is None else scene.quantities.get(edge.name)
+    same = "" if drawn is None else printed_segment(scene, drawn)[0]
+    return [worked(words, f"{a}{s}", [ratio], words.display.paper, same=same)]
 
 
 def _absolute(scene: Scene, step: Step) -> Lines:

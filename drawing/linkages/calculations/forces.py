@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
@@ -17,7 +17,7 @@ from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, by_lever, role
 from ....plans.quantities import F_BAL, M_BAL, unit_of
 from ....scales.scale import AS_INSIDE
-from ...printed import AS_PRINTED, DIGITS, POINT, READABLE, Symbol, decimals_for, value_text
+from ...printed import AS_PRINTED, DIGITS, POINT, READABLE, Symbol, decimals_for, number_of
 from ...words import Words
 from ..figures.lever import couples_on_lever
 from ..reading import Edge, ends_of
@@ -28,10 +28,10 @@ from .equations import (
     Lines,
     Product,
     factor,
+    fit_for,
     line_note,
-    measured,
     noted,
-    reading_of,
+    number,
     reckoned,
     segment,
     size_by_law,
@@ -172,14 +172,24 @@ def _told(scene: Scene, step: Step) -> Lines:
 
 
 def result_of(scene: Scene, name: str) -> str:
-    """Return the size of a vector as the equation prints it that it is laid off by; nothing where there is none."""
-    step = scene.made.get(role(name).size) or scene.made.get(name)
-    line: tuple[str, ...] = ()
-    if step is not None and step.law in equations.TOLD:
-        line = size_by_law(scene, "", step, unit_of(name))
-    elif step is not None and step.law in SIGNS and step.name not in BALANCING:
-        line = next(reversed(_force(replace(scene, words=scene.words.showing(AS_INSIDE)), step)), ())
-    found = re.search(r" = (\d+(?:[.,]\d+)?)[^=]*$", " ".join(line))
+    """Return the size of a quantity as the equation prints it that it is calculated by; nothing where there is none."""
+    names = (name, role(name).size, role(name).whole)
+    steps = (scene.made[own] for own in names if own in scene.made)
+    results = (scene.once(partial(_result, step=step), "result", step.name) for step in steps)
+    return next(filter(None, results), "")
+
+
+def _result(scene: Scene, step: Step) -> str:
+    inside, line = replace(scene, words=scene.words.showing(AS_INSIDE)), tuple[str, ...]()
+    if step.law in equations.TOLD:
+        line = size_by_law(scene, "", step, unit_of(step.name))
+    elif step.law in ("signed", "same_turning") and role(step.name).kind in equations.RATES:
+        (line,) = equations.turning_alike(scene, step)
+    elif step.law in LOADING:
+        line = next(reversed(_load(inside, step)), ())
+    else:
+        line = next(reversed(_on_lever(inside, step) or _force(inside, step)), ())
+    found = re.search(r" = −?(\d+(?:[.,]\d+)?)[^=]*$", " ".join(line))
     return found[1] if found is not None else ""
 
 
@@ -195,7 +205,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     words, reading, values = scene.words, scene.reading, scene.values
     length, *moments = step.operands
     name, point, made = reading.visible(step.name), _about(scene, step), scene.made
-    known = _terms(scene, moments, _taken(name))
+    known = _terms(scene, moments)
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
     if laid is not None and not any(map(_is_sum, moments)):
         point = ends_of(reading, made[laid.operands[1]].operands[0])[laid.verb == "lay"]
@@ -218,18 +228,20 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
 
 def _moments(scene: Scene, head: str, force: str, arm: Product, known: Sequence[Product], sign: float) -> Lines:
     """Return the sum of the moment of a force, with its sign, and of others, and that solved for the force."""
-    words, read = scene.words, reading_of(scene, force)
+    words = scene.words
     own = Symbol.of(words.symbol(force)) * arm.in_letters
     line = (head, *sum((product.in_letters for product in known), own * sign).chunks, "= 0")
     if not known:
         return [line]
-    found = worked(words, words.symbol(force), known, "N", arm, turn=-sign, wanted=_decimals(force), read=read)
+    found = worked(
+        words, words.symbol(force), known, "N", arm, turn=-sign, wanted=_decimals(force), fits=fit_for(scene, force)
+    )
     return [line, found]
 
 
 def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> tuple[str, ...]:
     """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
-    symbol, known = scene.words.symbol, _terms(scene, sum_of.operands, _taken(step.name))
+    symbol, known = scene.words.symbol, _terms(scene, sum_of.operands)
     head = f"ΣM_{{{scene.words.mark(_about(scene, sum_of))}}}({_link_of(scene, step.name)}) = 0:"
     if known:
         return (head, *_solved_for(scene, step.name, known, -1.0))
@@ -238,16 +250,11 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> tuple[str, ...]:
     return (head, *zeros[:-1], f"{zeros[-1]} = 0")
 
 
-def _taken(name: str) -> Callable[[Scene, str], Factor]:
-    """Return how values go into an equation for a quantity: into that of what balances the driver as they were read."""
-    return measured if name in BALANCING else factor
-
-
-def _terms(scene: Scene, names: Iterable[str], taken: Callable[[Scene, str], Factor] = factor) -> list[Product]:
+def _terms(scene: Scene, names: Iterable[str]) -> list[Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
     for name, value in _acting(scene, names):
-        factors = _factors(scene, name, taken) if value != 0.0 else ()
+        factors = _factors(scene, name) if value != 0.0 else ()
         # a force whose line passes through the point has no moment but rounding
         if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
             found.append(Product(factors, math.copysign(1.0, value)))
@@ -263,15 +270,15 @@ def _acting(scene: Scene, names: Iterable[str]) -> Iterator[tuple[str, float]]:
         yield name, 0.0 if name == ZERO else sum(scene.values[moment] for moment in moments)
 
 
-def _factors(scene: Scene, name: str, taken: Callable[[Scene, str], Factor] = factor) -> tuple[Factor, ...]:
+def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
     step, couple = scene.made.get(name), couples_on_lever(scene).get(name)
     if couple is not None:
         between = segment(scene, "".join(couple.letters(scene)), "lever", couple.arm(scene))
-        return taken(scene, couple.forces[0]), between
+        return factor(scene, couple.forces[0]), between
     if step is not None and step.verb == "moment":
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
-        return taken(scene, step.operands[0]), *_on_arm(scene, arm)
+        return factor(scene, step.operands[0]), *_on_arm(scene, arm)
     if step is not None and step.law == "couple_on_lever":
         scale = equations.paper(scene.words, scene.scales["lever"])
         over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
@@ -383,23 +390,26 @@ def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: st
 def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
     """Return the moments on Zhukovsky's lever and what balances the driver by it; where that is wanted, loads first."""
     lines = force_lines(scene, LOADS) if with_loads else []
-    scene, symbol = replace(scene, words=scene.words.showing(AS_INSIDE)), scene.words.symbol  # N and kg go with metres
-    for step in scene.program:
-        if step.law == "couple" and scene.defined(step.name):
-            pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
-            lines.append(size_by_law(scene, " = ".join(dict.fromkeys(map(symbol, pair))), step, "N"))
-        elif step.law == "moment_equation" and role(step.operands[0]).kind == "V":
-            # each force times its arm in mm, solved for the balancing force: that has along the line of its point's
-            # velocity the moment -F * V, with the signs of both
-            sign = -math.copysign(1.0, scene.values[step.name] * scene.values[step.operands[0]])
-            head, terms = f"ΣM_{{{scene.words.mark('lever.p')}}} = 0:", _terms(scene, step.operands[1:])
-            lines += _moments(scene, head, step.name, Product((_own_arm(scene, step),)), terms, sign)
-        elif step.law == "crank_moment":
-            product = _crank_moment(scene, step, balance(scene))
-            lines.append(worked(scene.words, symbol(step.name), [product], "N*m", wanted=AS_PRINTED))
-        elif step.law == "difference":
-            lines += _difference(scene, step, balance(scene))
-    return lines
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
+    return [*lines, *(line for step in scene.program for line in _on_lever(scene, step))]
+
+
+def _on_lever(scene: Scene, step: Step) -> Lines:
+    """Tell a couple on the lever, the moments on it, what balances the driver by it, by how much that differs."""
+    symbol = scene.words.symbol
+    if step.law == "couple" and scene.defined(step.name):
+        pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
+        return [size_by_law(scene, " = ".join(dict.fromkeys(map(symbol, pair))), step, "N")]
+    if step.law == "moment_equation" and role(step.operands[0]).kind == "V":
+        # each force times its arm in mm, solved for the balancing force: that has along the line of its point's
+        # velocity the moment -F * V, with the signs of both
+        sign = -math.copysign(1.0, scene.values[step.name] * scene.values[step.operands[0]])
+        head, terms = f"ΣM_{{{scene.words.mark('lever.p')}}} = 0:", _terms(scene, step.operands[1:])
+        return _moments(scene, head, step.name, Product((_own_arm(scene, step),)), terms, sign)
+    if step.law == "crank_moment":
+        product = Product(tuple(factor(scene, name) for name in step.operands))
+        return [worked(scene.words, symbol(step.name), [product], "N*m", wanted=AS_PRINTED)]
+    return _difference(scene, step) if step.law == "difference" else []
 
 
 def _own_arm(scene: Scene, step: Step) -> Factor:
@@ -409,63 +419,34 @@ def _own_arm(scene: Scene, step: Step) -> Factor:
     return segment(scene, letters, "lever", size_of(scene, step.operands[0]))
 
 
-def _crank_moment(scene: Scene, step: Step, found: Mapping[str, float]) -> Product:
-    force, length = step.operands
-    return Product((Factor(scene.words.symbol(force), found[force], exact=True), factor(scene, length)))
-
-
-def _difference(scene: Scene, step: Step, found: Mapping[str, float]) -> Lines:
+def _difference(scene: Scene, step: Step) -> Lines:
     """Tell by how much both ways differ as printed."""
-    words, names = scene.words, step.operands
-    (a, b), (first, second) = (value_text(words, found[name], DIGITS + 1) for name in names), map(words.symbol, names)
-    if found[names[0]] == found[names[1]] == 0.0:
+    (a, b), (first, second) = (map(of, step.operands) for of in (partial(number, scene), scene.words.symbol))
+    if number_of(a) == number_of(b) == 0.0:
         return []
-    (difference, relative), head = differ(scene, found), f"{words.symbol(step.name)} = "
+    (difference, relative), head = differ(scene), f"{scene.words.symbol(step.name)} = "
     if relative:
         return [(f"{head}({first} − {second})/{first}·100 % =", f"({a} − {b})/{a}·100 % =", difference)]
     return [(f"{head}{first} − {second} =", f"{a} − {b} =", difference)]
 
 
-def differ(scene: Scene, found: Mapping[str, float]) -> tuple[str, bool]:
+def differ(scene: Scene) -> tuple[str, bool]:
     """Return by how much both ways differ as printed, with its unit, and whether that is in parts of the first.
 
     It is not where what balances is small beside what a load would take alone, at its arm or at the least that can be
     read, as near a dead position.
     """
-    words, (name, other) = scene.words, next(step.operands for step in scene.program if step.law == "difference")
+    words, names = scene.words, next(step.operands for step in scene.program if step.law == "difference")
     lever = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
     arm = Product((_own_arm(scene, lever),))
     acting = [_factors(scene, acting) for acting, _ in _acting(scene, lever.operands[1:]) if acting != ZERO]
     shortest = [Product((force, replace(own[0], value=READABLE))) for force, *own in acting if len(own) == 1]
     largest = max((reckoned([term], arm) for term in (*_terms(scene, lever.operands[1:]), *shortest)), default=0.0)
-    a, b = found[name], found[other]
-    if found[lever.name] > FAINT * largest:
+    a, b = (number_of(number(scene, name)) for name in names)
+    if number_of(number(scene, lever.name)) > FAINT * largest:
         return f"{words.number((a - b) / a * 100.0, 2)} %", True
     places = max(decimals_for(size, DIGITS + 1) for size in (a, b))
-    return f"{words.number(a - b, places)} {words.unit(scene.quantities[other].unit)}", False
-
-
-def balance(scene: Scene) -> dict[str, float]:
-    """Return what balances the driver, by the plans and by the lever, as the numbers give it that are printed."""
-    return replace(scene, words=scene.words.showing(AS_INSIDE)).once(_balance, "balance")
-
-
-def _balance(scene: Scene) -> dict[str, float]:
-    found = dict[str, float]()
-    for step in (step for step in scene.program if step.name in BALANCING):
-        first, *others = step.operands
-        if step.law == "closing_moment":
-            found[step.name] = reckoned(_terms(scene, step.operands, _taken(step.name)))
-        elif step.law == "closing_force":
-            arm = Product((factor(scene, first),))
-            found[step.name] = reckoned(_terms(scene, others, _taken(step.name)), arm)
-        elif step.law == "moment_equation":
-            found[step.name] = reckoned(_terms(scene, others), Product((_own_arm(scene, step),)))
-        elif step.law == "crank_moment":
-            found[step.name] = reckoned([_crank_moment(scene, step, found)])
-        elif step.law == "component":
-            found[step.name] = measured(scene, step.name).printed
-    return found
+    return f"{words.number(a - b, places)} {words.unit(scene.quantities[names[1]].unit)}", False
 
 
 class _OnLever(NamedTuple):
@@ -484,7 +465,7 @@ class _OnLever(NamedTuple):
 def on_lever(scene: Scene) -> Iterator[_OnLever]:
     """Go through what acts on the lever, with what balances it."""
     scene = replace(scene, words=scene.words.showing(replace(AS_INSIDE, paper=scene.words.display.paper)))
-    words, found = scene.words, balance(scene)
+    words = scene.words
     balanced = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
     for name, value in _acting(scene, balanced.operands[1:]):
         factors, turn = _factors(scene, name), math.copysign(1.0, value)
@@ -493,11 +474,9 @@ def on_lever(scene: Scene) -> Iterator[_OnLever]:
         if moment != moment or min(factor.value for factor in factors) < POINT:
             moment = 0.0
         yield _OnLever(arms[0] if arms else balanced.name, *_named(words, factors), turn * moment)
-    force = Factor(words.symbol(balanced.name), found[balanced.name], exact=True)
-    arm = _own_arm(scene, balanced)
+    force, arm = factor(scene, balanced.name), _own_arm(scene, balanced)
     sign = -math.copysign(1.0, scene.values[balanced.name] * scene.values[balanced.operands[0]])
-    size = value_text(words, force.value, DIGITS + 1)
-    yield _OnLever(balanced.name, force.symbol, size, arm, sign * force.value * arm.printed)
+    yield _OnLever(balanced.name, force.symbol, force.text(words), arm, sign * force.printed * arm.printed)
 
 
 def _named(words: Words, factors: Sequence[Factor]) -> tuple[str, str, Factor | None]:

@@ -14,13 +14,13 @@ from ....plans.linkages.structure import KINDS as GROUPS
 from ....plans.linkages.structure import Group, Structure
 from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
-from ...printed import DIGITS, decimals_for, recomputes, value_text
+from ...printed import DIGITS, decimals_for
 from ...tables import givens_view, table
 from ...view import View
 from ..reading import read
 from ..scene import Scene
-from .equations import RATES, Lines, drawn_on, opposed, printed_segment, reading_of, value_shown
-from .forces import BALANCING, balance, on_lever, result_of
+from .equations import RATES, Lines, drawn_on, number, printed_segment, value_shown
+from .forces import on_lever
 
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
 HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
@@ -190,17 +190,9 @@ def _turning(scene: Scene, value: float) -> str:
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
-    words, none, printed = scene.words, scene.words["table.calculated"], list[str]()
-    if drawn_on(scene, q) in scene.scales or opposed(scene, q.name) is not None:
-        mm, *printed = printed_segment(scene, q)
-        read, told = reading_of(scene, q.name), result_of(scene, q.name)
-        if 0 < len(told) < len(printed[-1]) and (not read or recomputes(read, told)):
-            printed[-1] = told  # fewer digits are all that its equation gives
-        printed = [mm, *printed] if mm else [none, none, printed[-1]]
-    else:  # sizes, words tell the sense; what balances the driver as it is calculated
-        found = balance(scene).get(q.name) if q.name in BALANCING else None
-        size = value_text(words, abs(value_shown(scene, q))) if found is None else value_text(words, found, DIGITS + 1)
-        printed = [none, none, size]
+    words, none = scene.words, scene.words["table.calculated"]
+    mm, mu, _ = printed_segment(scene, q) if drawn_on(scene, q) in scene.scales else ("", "", "")
+    printed = [*((mm, mu) if mm else (none, none)), number(scene, q.name)]
     row = [words.symbol(q.name), *printed, words.unit(words.display.unit(q.unit))]
     if not words.notation["angles"]:
         return row
