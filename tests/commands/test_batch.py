@@ -495,6 +495,15 @@ def test_data_of_ones_own_are_those_of_ones_own_task(tmp_path: Path, tasks: tupl
     assert second.settings == {only_one: "45"}
 
 
+def test_what_is_noted_of_blanks_is_about_blanks(tmp_path: Path) -> None:
+    file, out = roster(tmp_path, "A;7", head="student;variant"), tmp_path / "out"
+
+    batch("scheme-20-press-automaton", file, out, kinds=["handout"], only="position,velocity", jobs=1, lang="en")
+
+    (row,) = table(out / "manifest.csv")
+    assert re.findall("--format A.", row["notes"]) == ["--format A4"]  # not the sheet's, which nobody gets
+
+
 def test_marking_takes_only_students_of_its_task(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
     rows = (f"A;{SCHEMES[0]};1;", f"B;{SCHEMES[1]};no such;", "C;3;2;", "D;;4;51", "E;1;5;", "F;;;42", "G;9;1;")
     file = roster(tmp_path, *rows, head="student;task;variant;record book")

@@ -148,8 +148,12 @@ class _Work:
     """What students with the same data share: all but the names; each part is made when it is first asked for."""
 
     case: Case
-    drawing: Drawn
     on_blanks: bool  # whether students have blanks or cards before them, whatever stands in the folder of solutions
+
+    @cached_property
+    def drawing(self) -> Drawn:
+        """The drawing of the sheet, which blanks and cards do without."""
+        return drawing_of(self.case)
 
     @cached_property
     def body(self) -> tuple[Block, ...]:
@@ -244,12 +248,17 @@ class _Making:
         common = work.case.block
         block = {**common, "student": who.student, "group": who.group or common.get("group", "")}
         case = replace(work.case, block=block)
-        drawn = sheet_of(case, work.drawing, stamp_of(case))
+        drawn = dict[str, Sheet]()
+        for kind in self.kinds:
+            if (of := kind if kind in FOR_STUDENTS else "") not in drawn:
+                drawn[of] = self._drawn(work, case, of)
         what = case.variant if len(self.asked) == 1 else f"{case.task.id} {case.variant}"
         stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
-        made = ((kind, self._files(work, case, drawn, kind, stem)) for kind in self.kinds)
+        whole = {kind: drawn[kind if kind in FOR_STUDENTS else ""] for kind in self.kinds}
+        made = ((kind, self._files(work, case, of, kind, stem)) for kind, of in whole.items())
         files = {f"{self.folder(kind)}{name}": data for kind, own in made for name, data in own}
-        notes = tuple(warning.text(self.spoken) for warning in drawn.warnings)
+        told = next(drawn[of] for of in ("", HANDOUT, CARD) if of in drawn).warnings
+        notes = tuple(warning.text(self.spoken) for warning in told)
         return Outcome(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
     def folder(self, kind: str = "") -> str:
@@ -265,10 +274,15 @@ class _Making:
             yield f"{stem}-note{NOTES[kind]}", data
             return
         if kind in FOR_STUDENTS:
-            blank = sheets.scannable_of_case if self.scan else sheets.begun_of_case
-            drawn = (blank if kind == HANDOUT else sheets.card_of_case)(case, work.blank)
             stem, kind = f"{stem}-{kind}", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
+
+    def _drawn(self, work: _Work, case: Case, of: str) -> Sheet:
+        """Return a blank or a card of a student, else the sheet."""
+        if of not in FOR_STUDENTS:
+            return sheet_of(case, work.drawing, stamp_of(case))
+        blank = sheets.scannable_of_case if self.scan else sheets.begun_of_case
+        return (blank if of == HANDOUT else sheets.card_of_case)(case, work.blank)
 
     def _work(self, student: Student) -> _Work:
         """Return what students with the same data share, from the last ones where it is there."""
@@ -280,7 +294,7 @@ class _Making:
             asked = self.asked[entry.task]
             settings = {**(asked.settings or {}), **entry.settings}
             case = replace(asked, variant=entry.variant, settings=settings).case()
-            return _Work(case, drawing_of(case), not FOR_STUDENTS.isdisjoint(self.kinds))
+            return _Work(case, not FOR_STUDENTS.isdisjoint(self.kinds))
 
         return self._works.get(data, make)
 
