@@ -54,6 +54,12 @@ def refused(file: Path) -> str:
     return line
 
 
+def test_a_folder_that_is_not_there_is_told_as_such(tmp_path: Path) -> None:
+    assert refused(tmp_path / "answers") == f"{tmp_path / 'answers'}: there is no such file"
+    (tmp_path / "a.odt").write_bytes(b"")
+    assert "expected a file that ends in" in refused(tmp_path / "a.odt")
+
+
 @pytest.mark.parametrize(
     ("name", "reader"),
     [

@@ -120,7 +120,8 @@ def _read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn |
                 raise
         return _photographed(file)
     if Path(file).suffix.lower() not in SUFFIXES:
-        raise InputError("answers-kind", file=quote(file, SHOWN), known=", ".join(SUFFIXES))
+        key = "answers-kind" if Path(file).exists() else "file-missing"
+        raise InputError(key, file=quote(file, SHOWN), known=", ".join(SUFFIXES))
     grid = read_grid(file)
     grid = replace(grid, file=called or grid.file)
     for row, texts in enumerate(grid.rows[:LOOKED_AT]):
