@@ -894,28 +894,32 @@ def test_each_point_of_a_plan_has_its_letter_there_or_in_a_detail(task: str, var
     assert len({*numerals}) == len(numerals)
 
 
-# lines beside vectors, that end between letters, whose mark has a leader
+# lines beside vectors, that end between letters, whose mark has a leader; one without any room
 @pytest.mark.parametrize(
-    ("task", "variant"),
+    ("task", "variant", "noted"),
     some(
         [
-            ("scheme-09-shaper", "3"),
-            ("scheme-20-press-automaton", "4"),
-            ("scheme-15-lever-shears", "0"),
-            ("scheme-17-sewing-machine", "0"),
+            ("scheme-09-shaper", "3", []),
+            ("scheme-20-press-automaton", "4", []),
+            ("scheme-15-lever-shears", "0", []),
+            ("scheme-17-sewing-machine", "0", []),
+            ("scheme-17-sewing-machine", "4", ["p′b′ ∥ x–x"]),
         ],
         1,
-        3,
+        4,
     ),
 )
-def test_each_construction_line_of_a_crowded_plan_has_its_mark(task: str, variant: str) -> None:
-    case = Linkage(task, variant)
+def test_each_construction_line_of_a_crowded_plan_has_its_mark(task: str, variant: str, noted: list[str]) -> None:
+    case, said = Linkage(task, variant), list[str]()
 
     for view in (case.sheet["velocity"], case.sheet["acceleration"]):
         lines = {line.name for line in view.lines("construction")}
         marks = [text.string for text in view.of("label") if text.string[0] in "⊥∥"]
+        notes = [note for text in view.of("heading") for note in text.string.split("; ") if re.search("[⊥∥]", note)]
+        said += notes
         assert len(lines) > 3
-        assert len(marks) == len(lines), (view.name, marks)
+        assert len(marks) + len(notes) == len(lines), (view.name, marks)
+    assert said == noted
 
 
 @pytest.mark.parametrize(("only", "letters"), [("position", {"A"}), ("position,velocity", {"A_{1,2,3}"})])

@@ -365,12 +365,16 @@ def _construction_line(scene: Scene, step: Step, start: str, direction: str) -> 
     return tail, point, point + e * PAST if along > 0 else point - e * PAST
 
 
-def name_line(canvas: Canvas, text: str, tail: complex, point: complex, end: complex) -> None:
-    """Say along a construction line what it is, past the point that it finds, or before it where there is no room."""
+def name_line(canvas: Canvas, text: str, tail: complex, point: complex, end: complex, last: str = "") -> None:
+    """Say along a construction line what it is, past the point that it finds, or before it where there is no room.
+
+    At `last` that is said in the notes.
+    """
     if abs(end - point) > NEAR:
         beyond = end + (end - point) * (LONGER / abs(end - point))
         mark, before = text.replace(" ", ""), (tail, point) if abs(point - tail) > NEAR else None
-        canvas.label(mark, (point, beyond), clear=0.6, height=canvas.style.text, optional=True, other=before)
+        small = canvas.style.text
+        canvas.label(mark, (point, beyond), clear=0.6, height=small, optional=True, other=before, last=last)
 
 
 def letter_marks(
@@ -434,7 +438,8 @@ def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[s
     for step, number, start, direction in scene.reading.meetings(plan):
         begin, point, end = _construction_line(scene, step, start, direction)
         canvas.part(step.name, Line(begin, end, Pen.THIN, role="construction", name=f"{step.name}_{number}"))
-        name_line(canvas, line_of(scene, direction), begin, point, end)
+        line = line_of(scene, direction)
+        name_line(canvas, line, begin, point, end, f"{words.mark(start)}{words.mark(step.name)} {line}")
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     within = {scene.ends(edge) for edge in vectors if crowd and shown[0].shows(*scene.ends(edge))}
     _vectors(canvas, scene, vectors, left, within)
