@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -45,6 +46,7 @@ TOLD += ["transport_speed", "transport_normal", "transport_tangential"]
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 BEFORE_MEETING = ("normal_part", "coriolis")
 RATES = ("omega", "epsilon")
+FURTHER = list[Callable[["Scene", Step], "Lines"]]()  # what tells a step of forces, whose module adds it
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,13 +226,30 @@ def factor(scene: Scene, name: str, power: int = 1) -> Factor:
 
 def number(scene: Scene, name: str) -> str:
     """Return the size of a quantity as it is printed wherever it stands: as its plan shows it, or its equation."""
-    from .forces import result_of
-
     item = scene.quantities.get(role(name).shown)
     if item is not None and (drawn_on(scene, item) in scene.scales or opposed(scene, item.name) is not None):
         return printed_segment(scene, item)[-1]
     size = size_of(scene, name) if item is None else abs(value_shown(scene, item))
     return result_of(scene, name) or value_text(scene.words, size)
+
+
+def result_of(scene: Scene, name: str) -> str:
+    """Return the size of a quantity as the equation prints it that it is calculated by; nothing where there is none."""
+    names = (name, role(name).size, role(name).whole)
+    steps = (scene.made[own] for own in names if own in scene.made)
+    results = (scene.once(partial(_result, step=step), "result", step.name) for step in steps)
+    return next(filter(None, results), "")
+
+
+def _result(scene: Scene, step: Step) -> str:
+    if step.law in TOLD:
+        lines = [size_by_law(scene, "", step, unit_of(step.name))]
+    elif step.law in ("signed", "same_turning") and role(step.name).kind in RATES:
+        lines = turning_alike(scene, step)
+    else:
+        lines = [line for tell in FURTHER for line in tell(scene, step)]
+    found = re.search(r" = −?(\d+(?:[.,]\d+)?)[^=]*$", " ".join(next(reversed(lines), ())))
+    return found[1] if found is not None else ""
 
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
@@ -260,19 +279,22 @@ def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str
 
 
 def _printed_segment(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
-    own = drawn_on(scene, q)
-    if plan not in ("", own) and not scene.words.ruler:
+    if plan not in ("", drawn_on(scene, q)) and not scene.words.ruler:
         return _segment_on(scene, q, plan, printed_segment(scene, q)[-1])
-    told = _segment_on(scene, q, plan or own)
-    if told[0] or plan or role(own).kind != FORCES:
-        return told
+    return _segment_on(scene, q, plan or _shown_on(scene, q))
+
+
+def _shown_on(scene: Scene, q: Quantity) -> str:
+    """Return the plan on which a vector is read: its own, for a short force one that has it in a detail."""
+    own = drawn_on(scene, q)
+    long = own in scene.scales and abs(q.value or 0.0) >= scene.style.arrow * scene.scales[own].mu
+    if role(own).kind != FORCES or long or (own in scene.scales and enlarged(scene, q.name, own) > 1.0):
+        return own
     others = (other for other in scene.scales if role(other).kind == FORCES and enlarged(scene, q.name, other) > 1.0)
-    return next((_segment_on(scene, q, other) for other in others), told)
+    return next(others, own)
 
 
 def _segment_on(scene: Scene, q: Quantity, plan: str, told: str = "") -> tuple[str, str, str]:
-    from .forces import result_of
-
     words, value, acting = scene.words, value_shown(scene, q), opposed(scene, q.name)
     known = told or ("" if acting is None else printed_segment(scene, acting)[-1])
     if not known and not words.ruler:  # it is laid off by its number, since it is given or has been calculated
@@ -301,7 +323,7 @@ def _factor_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, float]:
 def fit_for(scene: Scene, name: str) -> Callable[[str], bool] | None:
     """Return whether a segment on its plan can show a number of a vector; None if none shows it, or a short one."""
     item = scene.quantities.get(role(name).shown)
-    plan = "" if item is None or scene.words.ruler else drawn_on(scene, item)
+    plan = "" if item is None or scene.words.ruler else _shown_on(scene, item)
     if item is None or plan not in scene.scales:
         return None
     mu, value = _factor_on(scene, item, plan)[1], value_shown(scene, item)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
@@ -15,7 +14,7 @@ from ....plans.linkages.mechanism import ZERO, Driver, Revolute
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, by_lever, role
-from ....plans.quantities import F_BAL, M_BAL, unit_of
+from ....plans.quantities import F_BAL, M_BAL
 from ....scales.scale import AS_INSIDE
 from ...printed import AS_PRINTED, DIGITS, POINT, READABLE, Symbol, decimals_for, number_of
 from ...words import Words
@@ -171,28 +170,13 @@ def _told(scene: Scene, step: Step) -> Lines:
     return []
 
 
-def result_of(scene: Scene, name: str) -> str:
-    """Return the size of a quantity as the equation prints it that it is calculated by; nothing where there is none."""
-    names = (name, role(name).size, role(name).whole)
-    steps = (scene.made[own] for own in names if own in scene.made)
-    results = (scene.once(partial(_result, step=step), "result", step.name) for step in steps)
-    return next(filter(None, results), "")
+def _told_of(scene: Scene, step: Step) -> Lines:
+    """Tell a load, a step of the force plans or of the lever."""
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))
+    return _load(scene, step) if step.law in LOADING else _on_lever(scene, step) or _force(scene, step)
 
 
-def _result(scene: Scene, step: Step) -> str:
-    inside, line = replace(scene, words=scene.words.showing(AS_INSIDE)), tuple[str, ...]()
-    if step.law in equations.TOLD:
-        line = size_by_law(scene, "", step, unit_of(step.name))
-    elif step.law in ("signed", "same_turning") and role(step.name).kind in equations.RATES:
-        (line,) = equations.turning_alike(scene, step)
-    elif step.law in LOADING:
-        line = next(reversed(_load(inside, step)), ())
-    else:
-        line = next(reversed(_on_lever(inside, step) or _force(inside, step)), ())
-    found = re.search(r" = −?(\d+(?:[.,]\d+)?)[^=]*$", " ".join(line))
-    return found[1] if found is not None else ""
-
-
+equations.FURTHER.append(_told_of)
 SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own moment in the sum
 
 
