@@ -197,7 +197,7 @@ def fields(form: str, language: str) -> dict[str, Text]:
     return {part.name: part for part in parts if isinstance(part, Text) and part.markup == "-"}
 
 
-def text_frame(sheet: Format, stamp: Stamp, form: str = "") -> tuple[Shape, ...]:
+def text_frame(sheet: Format, stamp: Stamp, form: str) -> tuple[Shape, ...]:
     """Return the frame of a page of a text, with the block of form `2` or `2a`, or none; its number is left blank.
 
     Raises InputError: a field is too long for its cell.
@@ -260,7 +260,7 @@ def _centring_marks(sheet: Format) -> Group:
     return Group(tuple(Line(a, b, T) for a, b in ends), "margin", "centring")
 
 
-def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool = True) -> tuple[Shape, ...]:
+def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm, first: bool) -> tuple[Shape, ...]:
     """Return edge, frame, title block and what stands round them; following sheets get the small block.
 
     Raises InputError: a field is too long for its cell, or the font lacks one of its characters.

@@ -401,7 +401,7 @@ def plain(data: Any) -> Any:
 
 
 def table_bytes(
-    path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0, high: int = _LINE
+    path: Path, rows: Rows, language: str, title: str, bold: Iterable[int], frozen: int, high: int = _LINE
 ) -> bytes:
     """Return rows as the kind of file that the suffix of `path` picks, those of a workbook so many points `high`."""
     return _xlsx_bytes(rows, title, bold, frozen, high) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
@@ -413,8 +413,8 @@ def save_form(
     rows: Rows,
     language: str,
     title: str,
-    bold: Iterable[int] = (),
-    frozen: int = 0,
+    bold: Iterable[int],
+    frozen: int,
 ) -> Path:
     """Save rows to be filled in; a file of the name that holds anything else, as one that is filled in, stays."""
 

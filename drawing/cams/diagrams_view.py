@@ -77,7 +77,7 @@ def _diagrams_view(scene: CamScene) -> View:
     return canvas.finish("diagrams", heading)
 
 
-def law_view(scene: CamScene, part: float = 1.0) -> View:
+def law_view(scene: CamScene, part: float) -> View:
     """Draw what is given of the motion: the shapes of acceleration and travel without scales, the phases in degrees."""
     canvas, solved, end = Canvas(scene.style), scene.solved, float(scene.solved.angles[-1])
     wide, high = (part * size for size in LAW)

@@ -176,7 +176,7 @@ def _integrate(board: Board, plan: str, onto: str, pole_distance: str, sections:
         board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", _ray(plan, i), _foot(onto, i), UP)
 
 
-def _diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
+def _diagrams(board: Board, sections: range, given: str) -> None:
     """Draw the diagrams from the one that is given on: the analogue of acceleration, or that of velocity."""
     board.turn(RIGHT, "zero")
     board.normal(UP, RIGHT)

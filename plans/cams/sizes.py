@@ -128,8 +128,8 @@ def apex(planes: Sequence[HalfPlane]) -> followers.Sizes:
     return _sizes_at(max(corners, key=lambda corner: corner[0].imag))
 
 
-def central(planes: Sequence[HalfPlane], e: float = 0.0) -> followers.Sizes:
-    """Return the sizes with the least r_0 at a given offset, by default none."""
+def central(planes: Sequence[HalfPlane], e: float) -> followers.Sizes:
+    """Return the sizes with the least r_0 at a given offset."""
     needed = (((plane.least - plane.normal.real * e) / plane.normal.imag, plane) for plane in planes)
     s_0, plane = max(needed, key=lambda at: at[0])
     return _sizes_at((complex(e, s_0), (plane,))) if s_0 > 0.0 else followers.Sizes(abs(e), e, 0.0)

@@ -93,7 +93,7 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
     return {motion_given(name): value for name, value in given.items()}
 
 
-def _scale_factors(found: Numbers, layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
+def _scale_factors(found: Numbers, layout: Layout, end: float, part_of: float) -> dict[str, float]:
     """Return the scale factors of the diagrams, SI per millimetre, by which they fill their axes."""
     wanted = {"mu_t": end / TIMES, "mu_F": (TALLEST * found["F_max"] + found["P_st"]) / ORDINATES}
     if layout.roots is not None:

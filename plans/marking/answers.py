@@ -78,7 +78,7 @@ def nearest(values: tuple[float, ...], ours: float) -> float:
 
 
 @lru_cache(maxsize=1024)  # the same answers are held against one candidate after the other
-def readings(answer: Answer, values: tuple[float, ...], plain: bool = False) -> tuple[Said, ...]:
+def readings(answer: Answer, values: tuple[float, ...], plain: bool) -> tuple[Said, ...]:
     """Return all ways to take an answer whose value is one of `values`.
 
     A sign of the value is its sense. Where the sense is free to be assumed, a minus says that it is the other one, and

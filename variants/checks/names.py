@@ -71,7 +71,7 @@ def read_givens(checker: Checker, raw: object) -> dict[str, Given]:
     return givens
 
 
-def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], words: Container[str] = ()) -> Settings:
+def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], words: Container[str]) -> Settings:
     """Read `[choices.*]`: every word of a choice sets the same numbers.
 
     Choices whose `words` are taken as they are need not set any.
@@ -124,7 +124,7 @@ def literal(raw: object) -> Setting:
 
 
 def read_variants(
-    checker: Checker, raw: object, givens: Mapping[str, Given], optional: Container[str] = ()
+    checker: Checker, raw: object, givens: Mapping[str, Given], optional: Container[str]
 ) -> dict[str, Variant]:
     """Read `[[variant]]`: every row states every given that has no default, and no two rows share an id.
 

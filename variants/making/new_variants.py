@@ -55,11 +55,11 @@ class NewVariants:
 def make_variants(
     task: AnyTask,
     count: int,
-    ranges: Settings | None = None,
+    ranges: Settings | None,
     *,
-    set: Settings | None = None,
-    seed: int = 1,
-    advance: Advance | None = None,
+    set: Settings | None,
+    seed: int,
+    advance: Advance | None,
 ) -> NewVariants:
     """Make so many variants from ranges, each a good exercise: it can be solved and drawn without a warning.
 

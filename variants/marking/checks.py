@@ -323,7 +323,7 @@ class Job:
         return [digest_of(f"{whole} {number} {one.digest} {entry!r}") for number, (one, entry) in enumerate(told)]
 
 
-def _mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:
+def _mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None) -> list[Result]:
     """Mark all students of a class, in their order, as `Check.mark_all` says.
 
     Of photographs, a plan that was read of one student is asked of all: who has not handed in its page is marked anew.

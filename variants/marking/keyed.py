@@ -266,7 +266,7 @@ def columns_of(question: Question) -> tuple[str, ...]:
     return tuple(compress(("mm", "value", "direction"), (_drawn(question), not arm, turns)))
 
 
-def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()) -> Iterator[tuple[str, ...]]:
+def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str]) -> Iterator[tuple[str, ...]]:
     """Go through the rows of an empty form; `about` is what is known of the sheet already, `only` what is asked."""
     asked, words = keyed.asked, keyed.words
     said = texts(words.language)
@@ -294,7 +294,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
 
-def class_header(keyed: Keyed, who: Iterable[str], directions: bool, only: Collection[str] = ()) -> tuple[str, ...]:
+def class_header(keyed: Keyed, who: Iterable[str], directions: bool, only: Collection[str]) -> tuple[str, ...]:
     """Return the columns of a class: `who` it is, then scale factors, segment and value of each quantity with its unit.
 
     With `directions` also the direction of a vector, the sense of what turns. Of quantities `only` some may be asked.
