@@ -92,6 +92,7 @@ FILES = {
     "straight and typographic quotes": ('phi = "45 deg"', 'phi = "45 deg”', "toml-quotes"),
     "colon": ('phi = "45 deg"', "phi: 45", "toml-colon"),
     "comma at the end": ('phi = "45 deg"', "phi = 45,", "toml-end"),
+    "unit without quotes in a row": ('default = "cw"', "default = 60 deg", "toml-bare"),
     "word without quotes": ('phi = "45 deg"', "phi = forty", "toml-bare"),
     "Cyrillic key": ('phi = "45 deg"', "рhi = 45", "name-cyrillic"),
     "no equals sign": ('phi = "45 deg"', "phi 45", "toml-bad"),
