@@ -1,6 +1,6 @@
-"""A plan of velocities, accelerations or forces: the recorded steps, drawn; what is too short to be read, in insets.
+"""A plan of velocities, accelerations or forces: the recorded steps, drawn; what cannot be read there, in insets.
 
-An inset has the surroundings of such vectors, enlarged, in a frame of its own.
+An inset has the surroundings of forces that are too short, or of points that crowd, enlarged, in a frame of its own.
 """
 
 from __future__ import annotations
