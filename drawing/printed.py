@@ -326,11 +326,11 @@ def laid_off(words: Words, value: float, mu: float, known: str) -> str:
     """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
 
     It is as long as it is drawn, to the last digit that a ruler shows. It has one digit more than a ruler where a
-    number could not be told from others, and still one more where the number has no more than three digits.
+    number could not be told from others, and still one more where the number has three digits, or no decimals to lose.
     """
     segment = abs(value) / mu
     usual, finest = ruler_decimals(words, segment), ruler_decimals(words, 0.0)
-    few = segment >= READABLE and len(re.sub(r"\D", "", known).lstrip("0")) <= ENOUGH
+    few = segment >= READABLE and (not places_of(known) or len(re.sub(r"\D", "", known).lstrip("0")) <= ENOUGH)
     for decimals in range(usual, finest + 1 + few):
         here, step = rounded(segment, decimals), 10.0**-decimals
         beside = (here - step, here + step, rounded(number_of(known) / mu, decimals)) if decimals >= finest else ()
