@@ -277,9 +277,9 @@ class Pages:
         if page == most:
             return self.tried(range(begin, count), page)
 
-        def worth(end: int) -> tuple[int, int]:  # none is half empty for what begins
+        def worth(end: int) -> tuple[int, int]:  # none is half empty for what begins, nor the last one for another
             full = self.fill(range(begin, end), page) >= FULL
-            return (2 + (self.begins[end] if self.begins else FIGURE)) * full, end
+            return (2 + (self.begins[end] if self.begins else FIGURE)) * full, -end if full else end
 
         ends = (end for end in range(begin + 1, count) if self.fill(range(begin, end), page) <= 1.0)
         for end in sorted(ends, key=worth, reverse=True):
@@ -762,7 +762,7 @@ def compose(
     for k, paper in enumerate(sheets):
         on, end = (paper, norm, k == 0), 0 < k == len(sheets) - 1
         page = pages[k] if end else _legible(pages[k], *on, several=len(sheets) > 1)
-        pages[k] = _as_read(page, *on) if end else _without_holes(_as_read(page, *on), *on)
+        pages[k] = _without_holes(_as_read(page, *on), *on)
     if len(pages) > 1 and sheets[-1] is sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
         parting.plain = False
         pages, short = parting.evened(pages)
