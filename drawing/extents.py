@@ -2,9 +2,9 @@
 
 A subject says of each of its figures how large it is in the unit of its scale factor and how many millimetres letters
 and heading add, and how many square millimetres equations and tables take. Then the smallest format is taken of which
-one sheet can hold everything, and scale factors at which it can: as long as the estimate is too large, the plan that
-takes most room with the longest segments becomes coarser by a step of the customary series. The largest format has as
-many pages as it takes.
+one sheet can hold everything, and scale factors at which it can: as long as the estimate is too large, plans become
+coarser by steps of the customary series, so that all stay as near to their goals as they can. The largest format has
+as many pages as it takes.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TypeAlias
 
 from ..scales.choices import SIZES
@@ -21,7 +22,7 @@ from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
-FILL, TWO, SHARED = 0.88, 0.81, 0.72
+FILL, TWO, SHARED = 0.88, 0.84, 0.72
 ALONE = 0.865  # of the only page, with the least segments: else two pages have larger plans
 FIXED = 0.90  # of any page where all plans are fixed, and none can become smaller
 # of these, and of the least segments, where what is drawn takes more pages than that
@@ -29,6 +30,8 @@ SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6)
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
 SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
+CHOSEN = 1e6  # times as much as what is off its goal a step counts that the task has chosen
+OVER = 0.5  # times as much as what is smaller counts what is larger than its goal
 MOST = 100  # pages that there may be
 # parts of the width and of the height of a page that one figure may take, so that others find room beside it
 ONE = {"A1": 0.8, "A2": 0.85, "A3": 1.0, "A4": 1.0}
@@ -39,13 +42,14 @@ Size: TypeAlias = tuple[float, float]
 class Extent:
     """What a figure takes up: its `size` in the unit of its scale factor, and millimetres on A1 `around` it.
 
-    It takes at least `least`, mm.
+    It takes at least `least`, mm. Its longer side should be `goal` mm long on paper; one without is as long as it is.
     """
 
     symbol: str
     size: Size
     around: Size
     least: Size = (0.0, 0.0)
+    goal: float = 0.0
 
     def on_paper(self, mu: float, letters: float) -> Size:
         """Return width and height in mm; `letters` is how large letters are, A1 being 1."""
@@ -73,24 +77,13 @@ def not_a_point(symbol: str, mu: float, largest: float, unit: str) -> None:
 class Ladder:
     """The values that a scale factor may take, the wanted one first; one that is fixed stays.
 
-    `longest` is its longest segment in its unit; `weight` is how many times as long as others it may be, `share` how
-    many times as long it is at least when there is no room. Before it is shorter than `kept`, mm on A1, others become
-    smaller, those first that keep most of it, and what a task has `chosen` does so last. With a `root` it stands on
-    the rung of another one.
+    What a task has `chosen` becomes smaller after the others. With a `root` it stands on the rung of another one.
     """
 
     values: tuple[float, ...]
-    longest: float
-    weight: float = 1.0
-    share: float = 0.0
-    kept: float = 0.0
     root: str = ""
     fixed: bool = False
     chosen: bool = False
-
-    def next(self, rung: int, least: float) -> bool:
-        """Whether the plan may be drawn at the rung after this one, its longest segment being `least` mm of paper."""
-        return self.free and rung + 1 < len(self.values) and self.longest >= self.share * least * self.values[rung + 1]
 
     @property
     def free(self) -> bool:
@@ -121,27 +114,37 @@ class Extents:
         """Return a scale factor on its rung."""
         return self.ladders[symbol].values[rungs[self.root(symbol)]] if symbol else 1.0
 
+    def off_goals(self, symbol: str, rung: int) -> list[float]:
+        """Return how far figures that a scale factor on this rung sizes are from their goals, as logarithms."""
+        own = (f for f in self.figures if f.goal and max(f.size) > 0.0 and self.root(f.symbol) == symbol)
+        return [math.log(max(f.size) / (self.mu(f.symbol, {symbol: rung}) * f.goal)) for f in own]
+
+    def part(self, symbol: str, rung: int) -> float:
+        """Return how large these figures are on the whole, as a part of their goals; none are as they should be."""
+        off = self.off_goals(symbol, rung)
+        return math.exp(sum(off) / len(off)) if off else 1.0
+
 
 def ways(
-    extents: Extents, segments: Mapping[str, tuple[Size, Size]], formats: Sequence[Format]
+    extents: Extents, parts: Mapping[str, tuple[Size, Size]], formats: Sequence[Format]
 ) -> Iterator[tuple[Format, Rungs, int]]:
     """Go through formats, rungs of all scale factors and numbers of pages, the best first.
 
     One page is better than several, and of `formats` a smaller one, which come first; only the last may have several
-    pages, and plans are made smaller for it. `segments` are, by format, how long the longest segment of a plan is at
-    least and at most, mm: on one page, and on several. The number of pages follows from the estimate alone, whatever
+    pages, and plans are made smaller for it. `parts` are, by format, how large figures are at least and at most, as
+    parts of their goals: on one page, and on several. The number of pages follows from the estimate alone, whatever
     the language; what is drawn may turn out larger: the next way is a smaller one, below the least where it must be,
     and a page more only where nothing can become smaller.
     """
     *others, sheet = formats
     for less in others:
-        (_, most), _ = segments[less.letters]
+        (_, most), _ = parts[less.letters]
         rungs = _begun(extents, less, most)
         chosen = (symbol for symbol, ladder in extents.ladders.items() if ladder.chosen and ladder.free)
         # else what the task has chosen has no room
         if not any(rungs[symbol] for symbol in chosen) and _shrunk(extents, rungs, less, FILL * _page(less), math.inf):
             yield less, rungs, 1
-    single, several = segments[sheet.letters]
+    single, several = parts[sheet.letters]
     free, alone = any(ladder.free for ladder in extents.ladders.values()), ALONE * _page(sheet)
     count, fits = 0, False
     while count < MOST:
@@ -162,13 +165,12 @@ def ways(
         yield sheet, _begun(extents, sheet, several[1]), MOST
 
 
-def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
-    """Return the rungs at which segments are so long at most and every figure has room on a page."""
+def _begun(extents: Extents, sheet: Format, most: float) -> Rungs:
+    """Return the rungs at which figures are so large at most, in parts of their goals, and each has room on a page."""
     rungs = dict.fromkeys((symbol for symbol, ladder in extents.ladders.items() if not ladder.root), 0)
     for symbol, ladder in extents.ladders.items():
-        most = 1.0001 * longest * ladder.weight
-        while ladder.free and not ladder.chosen and ladder.longest > most * ladder.values[rungs[symbol]]:
-            if rungs[symbol] + 1 == len(ladder.values):
+        while ladder.free and not ladder.chosen and rungs[symbol] + 1 < len(ladder.values):
+            if extents.part(symbol, rungs[symbol]) <= 1.0001 * most:
                 break
             rungs[symbol] += 1
     # the largest view that a page can hold, whatever its norm, and where printers do not reach the edges
@@ -199,43 +201,56 @@ def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Form
 
 
 def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: float) -> bool:
-    """Make long and large plans coarser, down to `least` mm, until all has an area of `most`; tell whether it has.
+    """Make plans coarser, down to the part `least` of their goals, until all take `most` mm^2; tell whether they do.
 
-    What is finer again with the room that is left then is finer.
+    First what is least off its goal then, by the area that it spares; then one is finer, for which another one gives
+    room, if need be, as long as all together are nearer to their goals.
     """
-    ladders, letters = extents.ladders, SMALLER[sheet.letters]
-    by_symbol: dict[str, list[Extent]] = {}
-    for figure in extents.figures:
-        by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
+    ladders, letters, begun = extents.ladders, SMALLER[sheet.letters], dict(rungs)
+    drawn = {extents.root(figure.symbol) for figure in extents.figures}
+    free = [symbol for symbol, ladder in ladders.items() if ladder.free and symbol in drawn]
 
-    def worth(symbol: str) -> tuple[bool, float, float]:
-        ladder = ladders[symbol]
-        coarser = ladder.values[min(rungs[symbol] + 1, len(ladder.values) - 1)]
-        kept = ladder.kept * sheet.width / FORMATS["A1"].width * coarser
-        left = min(1.0, ladder.longest / kept) if kept else 1.0  # of the length that it should keep
-        long = ladder.longest / extents.mu(symbol, rungs) / ladder.weight
-        return not ladder.chosen, left, areas[symbol] * long / ladder.weight
+    @cache
+    def area(symbol: str, rung: int) -> float:
+        return _area(extents, (f for f in extents.figures if extents.root(f.symbol) == symbol), {symbol: rung}, sheet)
 
-    def area(symbol: str, finer: int = 0) -> float:
-        return _area(extents, by_symbol[symbol], rungs | {symbol: rungs[symbol] - finer} if finer else rungs, sheet)
+    @cache
+    def off(symbol: str, rung: int) -> float:
+        """Return how far figures are from their goals; what the task has chosen stays where it can."""
+        if ladders[symbol].chosen:
+            return CHOSEN * rung
+        return sum(far**2 * (1.0 if far < 0.0 else OVER) for far in extents.off_goals(symbol, rung))
 
-    def fits_finer(symbol: str) -> bool:
-        return rungs[symbol] > begun[symbol] and sum(areas.values()) - areas[symbol] + area(symbol, finer=1) <= left
+    @cache
+    def may(symbol: str, rung: int) -> bool:
+        return rung < len(ladders[symbol].values) and extents.part(symbol, rung) >= least
 
-    areas, begun = {symbol: area(symbol) for symbol in by_symbol}, dict(rungs)
+    def step(symbol: str, by: int) -> tuple[float, float]:
+        """Return how much farther from its goals, and how much larger a step makes it."""
+        was, now = rungs[symbol], rungs[symbol] + by
+        return off(symbol, now) - off(symbol, was), area(symbol, now) - area(symbol, was)
+
+    def worse(symbol: str) -> float:
+        off, more = step(symbol, 1)
+        return off / max(-more, 1.0)
+
+    taken = sum(area(symbol, rungs.get(symbol, 0)) for symbol in {"", *rungs})
     left = most - letters**1.5 * extents.texts
-    while sum(areas.values()) > left:
-        free = [s for s in by_symbol if s and ladders[s].next(rungs[s], least)]
-        if not free:
+    while taken > left:
+        coarser = min((s for s in free if may(s, rungs[s] + 1)), key=worse, default=None)
+        if coarser is None:
             return False
-        coarser = max(free, key=worth)
+        taken += step(coarser, 1)[1]
         rungs[coarser] += 1
-        areas[coarser] = area(coarser)
-    while finer := [s for s in rungs if fits_finer(s)]:
-        symbol = min(finer, key=worth)
-        rungs[symbol] -= 1
-        areas[symbol] = area(symbol)
-    return True
+    while True:
+        ups = [("", 0.0, 0.0), *((s, *step(s, -1)) for s in free if rungs[s] > begun[s])]
+        downs = [("", 0.0, 0.0), *((s, *step(s, 1)) for s in free if may(s, rungs[s] + 1))]
+        ways = ((a + b, up, down, x + y) for up, a, x in ups for down, b, y in downs if up != down)
+        gain, up, down, more = min((way for way in ways if taken + way[3] <= left), default=(0.0, "", "", 0.0))
+        if gain > -1e-9:
+            return True
+        rungs |= {s: rungs[s] + by for s, by in ((up, -1), (down, 1)) if s}
+        taken += more
 
 
 def _page(sheet: Format) -> float:

@@ -20,29 +20,26 @@ from ..extents import Extent, Extents, Ladder, Rungs, Size, visible, ways
 from ..formats import FORMATS, Format
 
 ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
-# mm, how long the longest segment of a plan of forces is at least and at most, on one page and on several, by format
-SEGMENTS = {
-    "A1": ((45.0, 220.0), (40.0, 240.0)),
-    "A2": ((40.0, 160.0), (40.0, 200.0)),
-    "A3": ((45.0, 130.0), (45.0, 190.0)),
-    "A4": ((40.0, 130.0), (40.0, 160.0)),
+# mm, how long figures should be on A1, and the plan of forces on one link; by format, parts of that which they are at
+# least and at most, on one page and on several
+GOALS = {"l": 280.0, "group": 230.0, "V": 180.0, "a": 180.0, "F": 165.0, "h": 235.0}
+ALONE = 115.0
+PARTS = {
+    "A1": ((0.33, 1.6), (0.25, 1.6)),
+    "A2": ((0.3, 1.1), (0.25, 1.3)),
+    "A3": ((0.3, 0.9), (0.25, 1.2)),
+    "A4": ((0.25, 0.9), (0.25, 1.0)),
 }
 # moments on the lever of one group that one page holds; times as long plans are at least on one page where groups or
 # moments are more: else two pages have larger plans, and room for their letters
-FEW, CROWDED = 8, 1.8
-# those of other plans may be so many times as long, and are so many times as long at least
-WEIGHTS = {"l": 2.0, "V": 1.25, "a": 1.25, "F": 1.25, "h": 1.5}
-LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
-# mm of A1 below which a plan becomes shorter only after the others
-KEPT = {"l": 200.0, "V": 150.0, "a": 150.0, "F": 150.0, "h": 180.0}
-SHORTEST = 75.0  # the same of the shortest of plans of forces that have one scale factor
-HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
-PROPORTION = 2.5  # times as fine as the velocity plan that a task fixes its lever may be
+FEW, CROWDED = 8, 1.65
+HUNG = 17.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
+PROPORTION = 2.5  # times as large as the velocity plan that a task fixes its lever and its forces may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ZERO_LINE, ARC = 1.1, 0.45  # of the crank: how long the line is from which phi is measured, the radius of its arc
-MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
+MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "similar", "same")
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
 MOTION, POLYGON = (25.0, 48.0), (23.0, 48.0)  # plans of motion, and of forces
 MECHANISM, GROUP = (40.0, 56.0), (56.0, 90.0)
@@ -51,7 +48,7 @@ GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
 HEADING, WIDER, WIDEST = (72.0, 42.0), (84.0, 42.0), (140.0, 42.0)  # of plans of motion, of forces, of the lever
 # a slider, the driver; of insets, for each force that would be a point, of so many at most
-APART, CRANKS, INSET, TOGETHER = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (55.0, 70.0), 8
+APART, CRANKS, INSET, TOGETHER = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (58.0, 80.0), 8
 RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing stands on the mechanism
 SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
 ON_AXIS = 0.3  # tangent of the angle at which a pivot is seen from a slider that runs on its axis to there
@@ -76,7 +73,7 @@ def first_scales(
 
 def ways_of(extents: Extents, paper: Format | None) -> Iterator[tuple[Format, Rungs, int]]:
     """Go through formats, `paper` alone where that is said, rungs of the scale factors and numbers of pages."""
-    return ways(extents, SEGMENTS, [FORMATS[name] for name in SIZES] if paper is None else [paper])
+    return ways(extents, PARTS, [FORMATS[name] for name in SIZES] if paper is None else [paper])
 
 
 def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
@@ -87,7 +84,8 @@ def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
 def extents_of(solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str]) -> Extents:
     """Return what the figures of a linkage take up, what its texts do, and the ladders of its scale factors."""
     figures = tuple(_figures(solved, plans)) if POSITION in solved.scale_of_plan else ()  # a structure has no extent
-    simple = len(solved.structure.groups) == 1 and len(_on_lever(solved)) <= FEW
+    groups = solved.structure.groups
+    simple = len(groups) == 1 and len(links_apart(solved, groups[0])) < 2 and len(_on_lever(solved)) <= FEW
     return Extents(figures, _texts(solved, plans), _ladders(solved, choosers, plans), 1.0 if simple else CROWDED)
 
 
@@ -124,35 +122,28 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
         if symbol == "mu_l" and chooser is None and scheme_only(plans) and measured:
             values = steps(scheme_mu(solved, SCHEME))[:1]  # lengths are taken off the scheme
         elif chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            values = Round(symbol, WEIGHTS[kind] * SEGMENTS["A1"][1][1]).ladder(value) if size > 0.0 else (1.0,)
+            values = Round(symbol, GOALS[kind] * PARTS["A1"][1][1]).ladder(value) if size > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
             values = chooser.ladder(value, ladders["mu_l"].values)
         else:
             values = chooser.ladder(value)
-        if symbol == ARMS:  # where the task fixes the velocity plan, its lever is not out of all proportion
-            finest = ladders["mu_V"].values[0] / PROPORTION * (1.0 - ROUNDING)
-            values = tuple(mu for mu in values if mu >= finest) or values[-1:]
+        # of what the task or the user has fixed several pages are better than a coarser one
+        fixed = isinstance(chooser, Fixed) or (chooser is not None and chooser.firm)
+        if not fixed and kind in "hF" and longest.get("mu_V"):  # in proportion to a velocity plan that the task fixes
+            finest = ladders["mu_V"].values[0] * (size / longest["mu_V"] if kind == "F" else 1.0) / PROPORTION
+            values = tuple(mu for mu in values if mu >= finest * (1.0 - ROUNDING)) or values[-1:]
         visible(chooser, symbol, values[0], size, UNITS[kind])
         ladders[symbol] = Ladder(
             values,
-            size,
-            weight=WEIGHTS[kind],
-            share=LARGER[kind],
-            kept=max(KEPT.get(kind, 0.0), HUNG * len(_on_lever(solved)) if symbol == ARMS else 0.0),
             root="mu_l" if isinstance(chooser, CrankScale) else "",
-            # of what the task or the user has fixed several pages are better than a coarser one
-            fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),
+            fixed=fixed,
             chosen=chooser is not None and not isinstance(chooser, From),
         )
-    forces = {
-        s: ladder for s, ladder in ladders.items() if role(s).of == "F" and s not in choosers and ladder.longest > 0.0
-    }
+    forces = [s for s in ladders if role(s).of == "F" and s not in choosers and longest[s] > 0.0]
     if forces:  # nearly as long as one another, they are drawn to one scale factor
-        root, ladder = max(forces.items(), key=lambda item: item[1].longest)
-        alike = [s for s in forces if s != root and ladder.longest <= ALIKE * forces[s].longest]
-        kept = max((SHORTEST * ladder.longest / forces[s].longest for s in alike), default=0.0)
-        ladders[root] = replace(ladder, kept=max(ladder.kept, kept))
-        ladders |= {s: replace(forces[s], values=ladder.values, root=root) for s in alike}
+        root = max(forces, key=lambda s: longest[s])
+        alike = [s for s in forces if s != root and longest[root] <= ALIKE * longest[s]]
+        ladders |= {s: replace(ladders[s], values=ladders[root].values, root=root) for s in alike}
     return ladders
 
 
@@ -165,14 +156,16 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
     """Go through the figures that scale factors size."""
     symbols, whole, slots = solved.scale_of_plan, _mechanism(solved), _slots(solved)
     if POSITION in plans or "structure" in plans:
-        yield Extent("mu_l", whole, MECHANISM)
+        yield Extent("mu_l", whole, MECHANISM, goal=GOALS["l"])
     for plan in ("velocity", "acceleration"):
         if plan in plans:
             yield from _plan(solved, plan)
     if "compound" in plans:
         yield Extent("mu_l", whole, GROUP)
         yield from (
-            Extent(symbols[p], _around(marks_on(solved, p)), SPLIT) for p in symbols if role(p).kind == ACCELERATION
+            Extent(symbols[p], _around(marks_on(solved, p)), SPLIT, goal=GOALS["a"])
+            for p in symbols
+            if role(p).kind == ACCELERATION
         )
     if "forces" in plans:
         for group in solved.structure.groups:
@@ -180,7 +173,7 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             places = [solved.point(point) for link in links for point in link.points]
             places += [place for link in links for place in slots.get(link.number, ())]
             size = _around([*places, *_special_points(solved, group.links)])
-            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP))
+            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), goal=GOALS["group"])
             for n in links_apart(solved, group):  # a yoke is as long as its slot, which its block goes through twice
                 own = [*(solved.point(p) for p in solved.mechanism.link(n).points), *slots.get(n, ())]
                 yield Extent("mu_l", _around(own), APART)
@@ -190,14 +183,17 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
         yield Extent("mu_l", _around([solved.point(point) for point in driver]), *CRANKS)
     if "lever" in plans:
         around = AROUND_LEVER[len(_on_lever(solved)) > FEW]
-        yield Extent(ARMS, _around([*_images(solved), *_feet(solved)]), around, WIDEST)
+        goal = max(GOALS["h"], HUNG * len(_on_lever(solved)))
+        yield Extent(ARMS, _around([*_images(solved), *_feet(solved)]), around, WIDEST, goal)
 
 
 def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
     """Return the figure of a plan, and insets for the forces in it that would be points."""
-    forces = role(plan).kind == FORCES
+    symbol, forces = solved.scale_of_plan[plan], role(plan).kind == FORCES
     around, least = (POLYGON, WIDER) if forces else (MOTION, HEADING)
-    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), around, least)
+    alone = forces and plan.removeprefix("forces_") not in {group.name for group in solved.structure.groups}
+    goal = ALONE if alone else GOALS[role(symbol).of]
+    yield Extent(symbol, _around(marks_on(solved, plan)), around, least, goal)
     shown = {name for name in solved.quantities if solved.shown_on.get(name) == plan}
     hung = {step.operands[1] for step in solved.program.on(plan) if step.verb == "chain"}  # those of another plan, too
     sizes = [solved.size(name) for name in shown | hung]
