@@ -116,7 +116,7 @@ def _laying(drawn: Drawn, key: Key, mus: Mapping[str, float]) -> Laying:
 
 @lru_cache(maxsize=1)  # a drawing is looked through for one variant after the other
 def _lines_of(drawn: Drawn) -> Lines:
-    return lines_of(drawn.tails, drawn.tips)
+    return lines_of(drawn)
 
 
 @dataclass(eq=False)

@@ -20,6 +20,7 @@ from ..laws import cross, dot
 SAME = 0.25  # mm within which ends are one node
 ASIDE = 0.25  # mm by which pieces of one line may lie beside one another
 BESIDE = 0.4  # mm by which a node may lie beside a line
+BY_HAND = 0.2  # mm besides, of a line that was drawn by hand
 BENT = 0.75  # mm from which what hangs together is no straight line
 ASTRAY, TILT = 0.3, 0.01  # mm and part of its length by which a line may miss its way
 SEED = 4.0  # mm from which a segment has a direction
@@ -53,13 +54,14 @@ class Letter:
 class Drawn:
     """What a drawing holds, in millimetres of paper, y up: segments as they were found, complex of shape (N,).
 
-    `arrows` are the indices of those that have an arrowhead at their tip.
+    `arrows` are the indices of those that have an arrowhead at their tip. Lines `by_hand` may miss their ends by more.
     """
 
     tails: Complex
     tips: Complex
     letters: tuple[Letter, ...] = ()
     arrows: Indices = field(default_factory=lambda: np.zeros(0, np.intp))
+    by_hand: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,21 +199,23 @@ def length_of(logarithms: Floats) -> Indices:
     return np.clip(found, 0.0, LENGTHS - 1.0).astype(np.intp)
 
 
-def lines_of(tails: Complex, tips: Complex) -> Lines:
-    """Put segments in order: pieces, copies and stray ones, complex of shape (N,), mm."""
+def lines_of(drawn: Drawn) -> Lines:
+    """Put segments in order: pieces, copies and stray ones."""
+    tails, tips = drawn.tails, drawn.tips
     whole = np.isfinite(tails) & np.isfinite(tips)
     tails, tips = tails[whole], tips[whole]
     nodes, number = _clustered(np.concatenate((tails, tips)))
     long = np.abs(tips - tails) > SAME
     in_line = _in_line(tails[long], tips[long])
     starts, stops, beside = _runs(tails[long], tips[long], in_line)
+    beside = beside + BY_HAND * drawn.by_hand
     crossings = _crossings(starts, stops, nodes)
     every = np.concatenate((nodes, crossings))
     more = _lengthened(tails[long], tips[long], in_line)
     runs = (
         np.concatenate((starts, more[0])),
         np.concatenate((stops, more[1])),
-        np.append(beside, np.zeros(len(more[0]))),
+        np.append(beside, np.full(len(more[0]), BY_HAND * drawn.by_hand)),
     )
     first, second = _pairs(runs, every, len(nodes), number.reshape(2, -1))
     ways = every[second] - every[first]

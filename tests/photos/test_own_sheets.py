@@ -15,6 +15,7 @@ from kulman import KulmanError
 from kulman.drawing.markers import EACH, FREE, STUCK, fields, stickers
 from kulman.drawing.writers import page_files
 from kulman.plans.marking.answers import Verdict
+from kulman.plans.marking.lines import Drawn, lines_of
 from kulman.tests.photos.measure import chosen_ways
 from kulman.tests.photos.synthesiser import PHONE, PX, SCANNER, Random, Sheet, Truth, drawn, photographed, sheet_for
 from kulman.tests.support.cases import some
@@ -23,8 +24,9 @@ from kulman.variants.marking.checks import check
 from kulman.variants.marking.marked import Desk, Marked
 from kulman.variants.marking.reading import Answers
 from kulman.variants.photos.asking import Told, ends_asked, gathered, page_of
+from kulman.variants.photos.free import _beside
 from kulman.variants.photos.pictures import Photo, read_photos
-from kulman.variants.photos.straight import by_squares
+from kulman.variants.photos.straight import PER_MM, by_squares
 from kulman.variants.roster import Who
 
 CLEAR = 24.0  # mm between the middle of a marker and a line
@@ -112,6 +114,25 @@ def test_markers_on_their_page_are_found_as_squares(tmp_path: Path) -> None:
     way, laid = by_squares(photo.markers, STUCK, photo.centre)
     assert way.error < 0.05
     np.testing.assert_allclose(np.abs(np.diff(laid, axis=1)), STUCK, atol=0.05)
+
+
+def test_where_many_arrowheads_meet_is_no_table() -> None:
+    page = np.full((100 * PER_MM, 100 * PER_MM), 230, np.uint8)
+    page[:, : 15 * PER_MM] = 90  # a table beside the paper
+    for turn in np.arange(0.0, math.tau, math.tau / 12):
+        far = round(525 + 40 * math.cos(turn)), round(525 + 40 * math.sin(turn))
+        cv2.line(page, (525, 525), far, 60, 5)
+    beside = _beside(page)
+    assert beside[:, : 15 * PER_MM].all()
+    assert not beside[:, 25 * PER_MM :].any()
+
+
+@pytest.mark.parametrize(("by_hand", "joined"), [(False, False), (True, True)])
+def test_lines_drawn_by_hand_may_miss_a_point_by_more(by_hand: bool, joined: bool) -> None:
+    ends = np.array([[-40, 8], [-40 - 9j, 8 + 1.8j], [-0.5 - 8j, -0.5 + 60j], [-0.5 + 50j, 30 + 40j]], complex)
+    lines = lines_of(Drawn(*ends.T, by_hand=by_hand))  # the third misses by half a millimetre where the first two cross
+    pole, end = lines.near(np.array([0j, -0.5 + 50j]))
+    assert lines.joined(np.array([pole]), np.array([end]))[0] == joined
 
 
 @pytest.mark.parametrize("other", ["--key", "--format=A3"])

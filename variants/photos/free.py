@@ -30,7 +30,8 @@ from .strokes import Ink, Stroke, strokes
 
 ROUND = 40.0  # mm of the sheet around its markers that is looked at
 LARGEST = 620.0, 460.0  # mm of that: A3 with markers near its edges
-COARSE, TABLE = 50, 0.7  # pixels that a pencil does not fill; of the brightness of paper, what is darker than paper
+COARSE, TABLE = 10, 0.7  # pixels of paper that is looked at as one; of its brightness, what is darker than paper
+CROWDED, MARGIN = 5, 15  # of these a side that no pencil fills, where many arrowheads meet, too; that are left out
 WHITE = 2.0  # mm round a marker that its paper may be seen
 SURE = 0.6  # part of a plan that tells where its pole is
 COMMON = 2  # forces of a plan that lie on another one, too, which make the two look alike
@@ -103,8 +104,9 @@ def _beside(picture: NDArray[np.uint8]) -> NDArray[np.bool_]:
 
     rows, columns = picture.shape
     coarse = cv2.resize(picture, (-(-columns // COARSE), -(-rows // COARSE)), interpolation=cv2.INTER_AREA)
-    dark = (coarse < TABLE * np.median(coarse)).astype(np.uint8)
-    dark = cv2.dilate(dark, np.ones((3, 3), np.uint8))
+    light = cv2.dilate(coarse, np.ones((CROWDED, CROWDED), np.uint8))
+    dark = (light < TABLE * np.median(light)).astype(np.uint8)
+    dark = cv2.dilate(dark, np.ones((MARGIN, MARGIN), np.uint8))
     return np.asarray(cv2.resize(dark, (columns, rows), interpolation=cv2.INTER_NEAREST) > 0)
 
 
@@ -144,7 +146,7 @@ def turned(sheet: _Free, quarters: int) -> _Free:
 def plans_on(sheets: Sequence[_Free], keyed: Keyed, apart: float) -> dict[str, FoundPlan]:
     """Return where plans are found on sheets, `apart` from one another: right ones, else those with a mistake."""
     ends = np.array([(line.tail + by, line.tip + by) for by, line in _lines(sheets, apart)], complex).reshape(-1, 2)
-    drawn = Drawn(ends[:, 0], ends[:, 1])
+    drawn = Drawn(ends[:, 0], ends[:, 1], by_hand=True)
     right = {plan: shape[0] for plan in keyed.key.paper.mus if (shape := shapes_of(keyed.key, None, plan))}
     found = {plan: one for plan, one in recognise(drawn, keyed.key, None, {}).plans.items() if one.quality >= SURE}
     if len(found) < len(right):
