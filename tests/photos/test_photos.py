@@ -30,7 +30,7 @@ from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
 from kulman.plans.marking.drawn import Found, FoundPlan, Recognised
 from kulman.plans.marking.lines import Drawn
-from kulman.plans.marking.ways import RIGHT, Shape
+from kulman.plans.marking.ways import RIGHT, Shape, shapes_of
 from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
 from kulman.tests.photos.synthesiser import (
@@ -55,7 +55,7 @@ from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report
 from kulman.variants.marking.result import Result, result_of
 from kulman.variants.marking.seen import Seen
-from kulman.variants.photos import pictures
+from kulman.variants.photos import matching, pictures
 from kulman.variants.photos.matching import _times, lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import _print_scale, on_page, rendered
@@ -840,6 +840,58 @@ def test_one_plan_that_a_mistake_makes_larger_is_no_smaller_print() -> None:
     found = Recognised({"velocity": FoundPlan(mu / 1.03, 0.0, 0j, 1.0)}, vectors, ())
 
     assert _print_scale(SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus)), sheet.keyed, found) == 1.0
+
+
+def test_larger_forces_that_follow_from_a_mistake_are_no_smaller_print() -> None:
+    sheet = sheet_for(TASK, only=PLANS)
+    mu = sheet.mus["velocity"]
+    vectors = {
+        name: Found(0j, complex(sheet.keyed.key[name]) / mu * 1.03, "velocity", 1.0)
+        for name in ("V_A", "V_BA", "V_B", "V_S2")
+    }
+    larger, printed_so = (
+        FoundPlan(mu / 1.03, 0.0, 0j, 1.0),
+        SimpleNamespace(blank=SimpleNamespace(mus={**sheet.mus, "other": 2.0})),
+    )
+    # a plan with a mistake is all there, as large as it should be: the ruler is as the sheet
+    for wrong, times in ((2.0, 1.0), (2.0 / 1.03, 1.03)):
+        plans = {"velocity": larger, "other": FoundPlan(wrong, 0.0, 0j, 1.0, "M26")}
+        found = Recognised(plans, vectors, ())
+
+        assert _print_scale(printed_so, sheet.keyed, found) == pytest.approx(times, abs=0.003)
+
+
+@pytest.mark.parametrize(
+    ("right", "larger", "whole", "chosen"),
+    [
+        ((0.93, 47.0), (0.84, 117.0), (1.0, 48.0), 2),  # all of a smaller plan goes before a part of a larger one
+        ((0.93, 140.0), (0.93, 146.0), (0.99, 123.0), 2),  # also where more of the right one is there
+        ((0.93, 140.0), (0.96, 150.0), (1.0, 20.0), 1),  # not where that is hardly anything
+        ((0.93, 140.0), (0.94, 143.0), (0.9, 141.0), 0),  # a part of a wrong plan must be clearly more
+        ((0.98, 140.0), (1.0, 170.0), (1.0, 160.0), 0),
+    ],
+)
+def test_a_plan_that_is_all_there_goes_before_one_of_which_a_part_is(
+    right: tuple[float, float],
+    larger: tuple[float, float],
+    whole: tuple[float, float],
+    chosen: int,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sheet = sheet_for(TASK, only=PLANS)
+    ways = shapes_of(sheet.keyed.key, sheet.keyed.book, "velocity")[:3]
+    worth = {way.places.tobytes(): one for way, one in zip(ways, (right, larger, whole), strict=True)}
+
+    def laid(lines: Any, pole: complex, mu: float, way: Shape) -> Any:
+        quality, mm = worth.get(way.places.tobytes(), (0.0, 0.0))
+        return matching._Fit(way, way.places, np.zeros(len(way.places)), 1.0, quality, mm, 0.0, frozenset())
+
+    monkeypatch.setattr(matching, "_laid", laid)
+    monkeypatch.setattr(matching, "_traced", lambda lines, fit, pole, mu: fit)
+    found = matching._best(lines_of(np.zeros(1, complex), np.full(1, 9.0 + 0j)), 0j, 1.0, "velocity", sheet.keyed)
+
+    assert found is not None
+    assert found.way.places.tobytes() == ways[chosen].places.tobytes()
 
 
 def test_one_mark_that_lies_far_off_moves_what_is_fitted_to_the_others_hardly_at_all() -> None:

@@ -28,10 +28,15 @@ COVER, FREE = 0.6, 1.5  # part of a vector that its line covers at the least; mm
 GOOD, WORSE = 0.7, 4.0  # mm off that count little; times that at which a line counts half
 NEAR = 2.0  # mm from where a point should be within which an end or an arrow tells of it
 POLE = 0.15  # mm, error of a line that begins at a printed pole
-WHOLE, ENOUGH = 0.97, 0.75  # part of a plan: all of it; that must be there
+WHOLE, ENOUGH, LAID = 0.97, 0.75, 0.6  # part of a plan: all of it; that must be there; at a first look
 BETTER, ABSENT = 5.0, 0.5  # mm more of a plan with a mistake than of the right one; part that counts against it
+CLEAR = 0.75  # part of the right plan that one with a mistake must have that is all there
+LACKS, HAND = (
+    8,
+    0.25,
+)  # power of the part that is there, by which a plan goes before others; mm that a hand misses points
 RESIZED = 0.3  # mm by which the longest vector is measured anew
-LIKELY = 8  # plans with a mistake that are looked at closely
+LIKELY = 6  # plans with a mistake of which most mm are there, and most of them, that are looked at closely
 SURE = 0.7  # mm, error of an end from which a vector is not sure; those that end so are 0.3 mm off
 ALIKE = 0.7  # mm within which ends and arrows are those of one point
 STEEP = 0.2  # sine of lines between which a point is told by their crossing
@@ -55,7 +60,8 @@ class _Lines:
 class _Fit:
     """A way to draw a plan, laid on a page: points, their errors, mm; how large it is, how much of it is there.
 
-    `worth` are the mm of lines that are there, less half of those that are not.
+    `worth` are the mm of lines that are there, less half of those that are not; `off` is how far its points are from
+    where they should be, mm, root of the mean square.
     """
 
     way: Way
@@ -64,6 +70,7 @@ class _Fit:
     times: float
     quality: float
     worth: float
+    off: float
     there: frozenset[frozenset[int]]
     lines: Mapping[int, Traced] = field(default_factory=dict)
 
@@ -103,7 +110,10 @@ def matched(
 
 
 def _best(lines: _Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> _Fit | None:
-    """Return how a plan is drawn: the right one, or one with a mistake of which clearly more is there."""
+    """Return how a plan is drawn: the right one, or one with a mistake of which clearly more is there.
+
+    One that is all there goes before a larger one of which a part is: lines go on, and others lie where it should be.
+    """
     if not len(lines.tails):
         return None
     (right, *_) = shapes_of(keyed.key, None, plan)
@@ -111,12 +121,21 @@ def _best(lines: _Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> _
     best = _traced(lines, laid, pole, mu)
     if best.quality < WHOLE:
         ways = (_laid(lines, pole, mu, way) for way in shapes_of(keyed.key, keyed.book, plan)[1:])
-        likely = [fit for fit in ways if fit.worth > laid.worth - BETTER and fit.quality >= ENOUGH]
-        for fit in sorted(likely, key=lambda fit: -fit.worth)[:LIKELY]:
+        likely = [
+            fit for fit in ways if fit.quality >= LAID and fit.worth > min(CLEAR * laid.worth, laid.worth - BETTER)
+        ]
+        least, largest = best.worth, sorted(likely, key=_rank, reverse=True)[:LIKELY]
+        for fit in dict.fromkeys((*largest, *sorted(likely, key=lambda fit: -fit.quality)[:LIKELY])):
             own = _traced(lines, fit, pole, mu)
-            if own.worth > best.worth + (BETTER if best.way.right else 0.0):
+            enough = CLEAR * least if own.quality >= WHOLE else least + BETTER
+            if own.worth > enough and (best.way.right or _rank(own) > _rank(best)):
                 best = own
     return best if best.quality >= ENOUGH else None
+
+
+def _rank(fit: _Fit) -> tuple[bool, float]:
+    """Return what goes before: what is all there; then more mm of which less lacks, nearer to where they should be."""
+    return fit.quality >= WHOLE, fit.worth * fit.quality**LACKS / (1.0 + (max(fit.off, HAND) / GOOD) ** 2)
 
 
 def _laid(lines: _Lines, pole: complex, mu: float, way: Way) -> _Fit:
@@ -130,7 +149,7 @@ def _laid(lines: _Lines, pole: complex, mu: float, way: Way) -> _Fit:
         known = (errors < SURE) & (np.abs(places) > LONG)
         if known.sum() >= 2:
             times = _times(places[known], points[known] - pole)
-    return _fitted(way, mu, points, errors, times, good)
+    return _fitted(way, mu, points, errors, pole, times, good)
 
 
 def _times(places: Complex, drawn: Complex) -> float:
@@ -160,7 +179,7 @@ def _traced(lines: _Lines, fit: _Fit, pole: complex, mu: float) -> _Fit:
         good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
         off = np.clip(np.abs(points - wanted) - GOOD, 0.0, OFF[0])  # a line that ends elsewhere is another's
         good /= 1.0 + np.maximum(off[way.tails[way.lines]], off[way.tips[way.lines]]) ** 2 / (GOOD * WORSE) ** 2
-        own = replace(_fitted(way, mu, points, errors, fit.times, good), lines=found)
+        own = replace(_fitted(way, mu, points, errors, pole, fit.times, good), lines=found)
         if best is fit or own.quality > best.quality:
             best = own
         if best.quality >= WHOLE:
@@ -168,12 +187,13 @@ def _traced(lines: _Lines, fit: _Fit, pole: complex, mu: float) -> _Fit:
     return best
 
 
-def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, good: Floats) -> _Fit:
+def _fitted(way: Way, mu: float, points: Complex, errors: Floats, pole: complex, times: float, good: Floats) -> _Fit:
     """Return a fit of which lines are there as `good` says, from 0 to 1."""
     sought = np.abs(way.spans) / mu >= LONG
     weights = np.where(sought, way.weights, 0.0)
     sizes = np.where(sought, np.abs(way.spans) / mu / way.like, 0.0)
-    whole = float(weights.sum())
+    whole, known = float(weights.sum()), errors < SURE
+    off = np.abs(points - pole - times * way.places / mu)[known]
     ends = zip(way.tails[way.lines].tolist(), way.tips[way.lines].tolist(), good > 0, sought, strict=True)
     return _Fit(
         way,
@@ -182,6 +202,7 @@ def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, 
         times,
         float((weights * good).sum()) / whole if whole else 0.0,
         float((sizes * (good - ABSENT * (1.0 - good))).sum()),
+        math.sqrt(np.square(off).mean()) if known.any() else 0.0,
         frozenset(frozenset((tail, tip)) for tail, tip, found, long in ends if found or not long),
     )
 

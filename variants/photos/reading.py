@@ -393,6 +393,9 @@ def _print_scale(sheets: Sheets, keyed: Keyed, found: Recognised) -> float:
     A sheet that was printed smaller has its markers smaller, too; the student's ruler is as it was.
     """
     mus = sheets.blank.mus
+    wrong = (mus[name] / plan.mu for name, plan in found.plans.items() if plan.mistake and plan.quality >= WHOLE)
+    if any(abs(times - 1.0) <= PRINTED for times in wrong):  # larger forces may follow from a mistake
+        return 1.0
     right = {name for name, plan in found.plans.items() if name in mus and not (plan.mistake or plan.alone)}
     long = [(name, one) for name, one in found.vectors.items() if one.plan in right and abs(one.tip - one.tail) >= LONG]
     if len(long) < FEWEST:
