@@ -332,6 +332,25 @@ def test_a_plan_read_a_little_too_small_makes_no_scale_factor_wrong() -> None:
     assert {*found.recognised.missing} == {"F_5"}  # 1.1 mm too short
 
 
+@pytest.mark.parametrize(("beside", "asked"), [(0.5, set()), (1.1, {"F_5"})])
+def test_a_force_that_is_laid_off_is_right_within_what_a_photograph_tells(beside: float, asked: set[str]) -> None:
+    sheet, plan = sheet_for("scheme-09-shaper"), "forces_45"
+    (way, *_), mu = sheet.ways(plan, False), sheet.mus[plan]
+    places = way.places / mu
+    ends = zip(way.names, places[way.tails].tolist(), places[way.tips].tolist(), strict=True)
+    vectors = {name: Found(tail, tip, plan, 1.0) for name, tail, tip in ends if name in sheet.keyed.key.questions}
+    force = vectors["F_5"]
+    way_of = (force.tip - force.tail) / abs(force.tip - force.tail)
+    vectors["F_5"] = replace(force, tip=force.tip + beside * way_of)
+    read = Seen(Recognised({plan: FoundPlan(mu, 0.0, 0j, 1.0)}, vectors, ()), {plan: mu}, frozenset({plan}))
+    answers = Answers("student.jpg", Who(), {}, {}, {}, photos=(Photo("student.jpg", 1, {}, 0j, (), b""),))
+    rubric = check(sheet.case.task, lang="en").rubric
+
+    found = surely(answers, sheet.keyed, SimpleNamespace(drawn=None), read, rubric)  # type: ignore[arg-type]
+
+    assert {*found.recognised.missing} == asked
+
+
 def test_marked_sheets_are_returned(honest: tuple[Report, dict[str, Truth]]) -> None:
     (_, png), (_, pdf) = (next(iter(honest[0].files(Path(f"marked{kind}")))) for kind in (".png", ".pdf"))
 

@@ -31,6 +31,7 @@ LIKELY = 3  # other variants that are looked at closely
 QUARTER = math.pi / 2.0
 DIGITS = 3
 LEAST, LARGEST = 15.0, 1200.0  # mm, the longest line of a drawing on a sheet of paper
+TOLD = 0.5  # mm to which a photograph tells a segment, as a rounded number tells a value
 TINY = 2.0  # mm of a vector: of shorter ones none can be asked for
 _MU = re.compile(r"(?:[μµ]|\bmu)\s*_?\s*\{?\s*([^\W_][\w. ]{0,12}?)\s*\}?\s*[=:]\s*(.{1,60})")
 _BARE = re.compile(r"[0-9]+(?:[.,][0-9]+)?(?![0-9.,]|\s*[·*/:])")
@@ -198,8 +199,9 @@ def measured(
     lines = {}
     for name, vector in recognised.vectors.items():
         way, mu = vector.tip - vector.tail, Mu(found.mus[vector.plan], sure=True)
+        last = TOLD * found.mus[vector.plan] if answers.photos else None
         lines[name] = Reply(
-            name, abs(way), None, None, found.direction(way), place=answers.source, decimals=1, factor=mu
+            name, abs(way), None, None, found.direction(way), rounded=last, place=answers.source, decimals=1, factor=mu
         )
     asked = {question.name for part in key.parts for question in part.asked}
     columns = tuple(name for name in lines if name in asked)
