@@ -56,7 +56,7 @@ from kulman.variants.marking.report import Report
 from kulman.variants.marking.result import Result, result_of
 from kulman.variants.marking.seen import Seen
 from kulman.variants.photos import matching, pictures
-from kulman.variants.photos.matching import _times, lines_of, matched
+from kulman.variants.photos.matching import SURE, _times, lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import _print_scale, on_page, rendered
 from kulman.variants.photos.straight import ASTRAY, PER_MM, _fitted, framed, straightened, without_worst
@@ -714,6 +714,18 @@ def test_the_stem_of_a_letter_is_not_an_end_beside_where_a_short_vector_has_it()
     points, _, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
 
     assert abs(points[3] - end) < 0.5
+
+
+@pytest.mark.parametrize(("short", "told"), [(4.0, True), (8.0, False)])
+def test_where_a_short_vector_goes_on_in_line_a_longer_one_begins(short: float, told: bool) -> None:
+    pole, a, end = 20 + 10j, 60 + 10j, 60 + (40 + short) * 1j
+    pencil = pencil_of([(pole, a), (a, end), (end, pole)], [])
+    way = plan_of([0j, 40 + 0j, 40 + 30j, 40 + (30 + short) * 1j], (0, 1), (1, 2), (2, 3), (3, 0))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert (errors[2] < SURE) == told
+    assert abs(points[2] - (a + 30j)) < 0.5
 
 
 def test_one_point_that_is_taken_for_another_makes_no_plan_larger() -> None:

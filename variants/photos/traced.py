@@ -56,7 +56,7 @@ STRAYED = 1.2  # mm from where a point should be that an end or an arrowhead alo
 BESIDES = 1.4  # mm between a point and where the end of a line with its arrowhead has it
 ALIKE = 0.8  # mm within which ends and arrowheads are those of one point
 FLAT, TOLD = 0.6, 1.5  # mm, error of a crossing that ends must tell; from which a single end does not
-TIE = 0.2, 0.15  # mm, error of a short vector; part of it
+TIED, TIE = 5.0, (0.2, 0.1)  # mm of a short vector; its error, mm and part of it
 FAR = 3.0  # mm from where it should be that no point is
 ROUNDS, STRANGE = 6, 2.5  # of solving; errors off at which an equation counts half
 LOST = 99.0  # mm, error of a point of which nothing is known
@@ -437,7 +437,7 @@ def _solved(
 ) -> tuple[Complex, Floats]:
     """Return where points of a plan are, and their errors: where lines cross, and with ends where that is flat.
 
-    Points that a short vector joins, which is not measured, are as far from one another as they should be, about.
+    Points that a short vector joins, of which nobody is asked, are as far from one another as they should be, about.
     """
     rows = _Rows(points)
     for mark in range(len(points)):
@@ -450,7 +450,7 @@ def _solved(
             rows.add(mark, 1j, pole, POLE)
     for tail, tip in zip(way.tails[way.lines].tolist(), way.tips[way.lines].tolist(), strict=True):
         span = complex(wanted[tip] - wanted[tail])
-        if abs(span) < SHORTEST:
+        if abs(span) < TIED:
             for unit in (1.0, 1j):
                 rows.tie(tail, tip, unit, span, TIE[0] + TIE[1] * abs(span))
     crossings, errors = rows.solved()
