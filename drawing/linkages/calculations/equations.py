@@ -302,7 +302,7 @@ def _segment_on(scene: Scene, q: Quantity, plan: str, told: str = "") -> tuple[s
     if plan not in scene.scales:
         return "", "", known
     number, mu = _factor_on(scene, q, plan)
-    if known and abs(value) >= POINT * mu:
+    if known:
         return laid_off(words, value, mu, known), number, known
     if words.ruler and _is_laid(scene, q.name):  # it is as long as a ruler can lay it off
         return segment_text(words, abs(value) / mu), number, result_of(scene, q.name) or value_text(words, abs(value))
