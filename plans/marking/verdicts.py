@@ -387,16 +387,16 @@ class Marker:
         return held.said, wrong
 
     def _as_its_equal(self, name: str, held: _Held) -> _Held:
-        """Let pass an angular velocity or acceleration that is taken over from an equal one which has passed.
+        """Let pass an angular velocity or acceleration that is taken over, with its sense, from an equal one that did.
 
         That of a link by compound motion, where what carries it turns evenly, is that of its plan.
         """
         if held.verdict is not Verdict.WRONG or self.key.questions[name].unit not in RATES:
             return held
-        own = self.answers[name].value
+        size, sign = held.said.size, held.said.sign or 0
         for other, before in self.held.items():
             same = abs(self.key[other] - self.key[name]) <= EQUAL * abs(self.key[name])
-            if same and before.verdict.passed and own and own == self.answers[other].value:
+            if same and before.verdict.passed and size and size == before.said.size and sign * before.against >= 0.0:
                 return held._replace(verdict=before.verdict)
         return held
 

@@ -292,6 +292,21 @@ def test_a_direction_or_a_sense_alone_is_no_answer() -> None:
     assert {line.verdict.value for line in mark(EXAMPLE, alone).lines} == {"missing"}
 
 
+@pytest.mark.parametrize("task", some(LINKAGES, *range(0, 99, 3)))
+def test_a_vector_or_a_rate_the_wrong_way_is_wrong_however_right_its_equal_is(task: str) -> None:
+    """Of links that turn alike one was called right the other way, too, since the rate of the other one was right."""
+    of, passed = key(task), []
+    right = right_answers(of)
+    for place, one in enumerate(right):
+        if (one.direction is not None or one.sense) and abs(of[one.name]) > CLEAR * of.allowed[one.name]:
+            direction = None if one.direction is None else one.direction + math.pi
+            turned = replace(one, direction=direction, sense=one.sense and -one.sense)
+            line = mark(of, [*right[:place], turned, *right[place + 1 :]])[one.name]
+            passed += [one.name] * line.verdict.passed
+
+    assert passed == []
+
+
 def test_the_sense_of_other_rates_is_not_free_and_a_wrong_size_not_called_a_direction() -> None:
     right = EXAMPLE["omega_2"]
     turned = Answer("omega_2", value=abs(right), sense=-int(math.copysign(1.0, right)))
