@@ -173,6 +173,38 @@ def test_the_last_digit_of_a_number_is_known(text: str, value: float | None, hal
 
 
 @pytest.mark.parametrize(
+    ("written", "meant"), [("12б3", 12.3), ("0ю262", 0.262), ("5Ю6 м/с", 5.6), ("−1Б5", -1.5), ("0ю5·2б5=1ю25", 1.25)]
+)
+def test_the_letter_of_the_key_of_a_decimal_sign_is_one_and_that_is_told(
+    tmp_path: Path, written: str, meant: float
+) -> None:
+    """Comma and point lie where the Cyrillic keyboards have б and ю: `12б3` was 12 of an unknown unit."""
+    size = f"{abs(meant)}".replace(".", "ю")
+    rows = f"V_B;{size};{size};{written};;{size}°\nomega_2;;;{written};;\nmu_a;;;{size};;\n"
+
+    answers = one(tmp_path, HEAD + rows)
+    line, factor, told = answers.lines["V_B"], answers.lines["V_B"].factor, messages(answers)
+
+    assert (line.mm, line.value, factor and factor.value) == pytest.approx((abs(meant), meant, abs(meant)))
+    assert line.direction == pytest.approx(math.radians(abs(meant)))
+    assert answers.lines["omega_2"].value == pytest.approx(meant)
+    assert answers.scales["mu_a"].value == pytest.approx(abs(meant))
+    told = [text for text in told if "decimal sign" in text]
+    assert [sum(f"{of}, {name}: " in text for text in told) for of, name in PLACES] == [1] * 6
+    assert "read as 12.3" in told[0] or written != "12б3"
+
+
+@pytest.mark.parametrize("written", ["1О,5", "12k3", "1O5 м/с", "12,З", "12,ЗЗ", "1ю500б5"])
+def test_a_number_with_a_letter_in_it_is_none_and_not_what_stands_before_the_letter(
+    tmp_path: Path, written: str
+) -> None:
+    answers = one(tmp_path, f"{HEAD}V_B;{written};{written};{written};;\na_B;49;4;196;;\n")
+
+    assert "V_B" not in answers.lines
+    assert len([text for text in messages(answers) if "V_B" in text and "is not a number" in text]) >= 1
+
+
+@pytest.mark.parametrize(
     ("row", "where", "what"),
     [
         ("V_B;багато;;2,76;;", "B2, V_B", "is not a number"),
@@ -200,6 +232,7 @@ def test_a_bad_cell_is_told_of_with_its_place_and_the_rest_is_read(
         assert answers.lines["V_B"].value == pytest.approx(2.76)
 
 
+PLACES = (("B2", "V_B"), ("C2", "V_B"), ("D2", "V_B"), ("F2", "V_B"), ("D3", "omega_2"), ("D4", "mu_a"))
 RIGHT_WAY = (
     *("-28,79", "28.79 cw", "28,79 за годинниковою стрілкою", "↻ 28,79", "28,79 1/с по ч. с.", "− 28.79", "28.79 (-)"),
     "≈ −28,79",

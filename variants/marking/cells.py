@@ -31,6 +31,9 @@ WORDIEST = 200  # characters of a cell in which a sense is looked for
 _ALONG_OR_AGAINST = frozenset((*TURNING["along"], *TURNING["against"]))
 _BEHIND = ("(+)", "(-)", "(−)", "(–)", "+")
 _ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[kind] if not word.isalpha())
+# б and ю lie where other keyboards have comma and point: between digits they are decimal signs
+_SIGN_KEY, _KEYS = re.compile("(?<=[0-9])[бюБЮ](?=[0-9])"), str.maketrans("бюБЮ", ",.,.")
+_LETTER_INSIDE = re.compile(r"\S*[0-9](?:[^\W\d_][.,]?[0-9]|[.,][^\W\d_])")
 _WIDE = str.maketrans("＋－", "+-")
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"[^0-9.,]*+[0-9 \u00a0\u2009\u202f]*+[.,]([0-9]+)")
@@ -133,6 +136,16 @@ def checked(grid: Grid, row: int, column: int | None) -> str:
     if at in grid.dates:
         raise InputError("answer-date")
     return "" if text in NONE else text
+
+
+def with_signs(text: str) -> str:
+    """Return a text in which б and ю between digits are the decimal signs of their keys: `12б3` is 12,3."""
+    return _SIGN_KEY.sub(lambda found: found.group().translate(_KEYS), text)
+
+
+def is_garbled(text: str) -> bool:
+    """Whether a letter stands in a number where no unit begins: `12k3`, `1О,5`; it is not what stands before it."""
+    return _LETTER_INSIDE.match(text) is not None
 
 
 def signed(text: str) -> str:

@@ -241,9 +241,16 @@ class _Sheet:
         """Whether a cell holds an answer."""
         return self.grid.text(row, column) not in cells.NONE
 
+    def keyed(self, cell: _Cell, text: str) -> str:
+        """Return the text of a cell with the decimal signs that are meant; note letters of their keys."""
+        meant = cells.with_signs(text)
+        if meant != text:
+            self.refuse(cell, InputError("answer-decimal", text=quote(text), meant=quote(meant)))
+        return meant
+
     def number(self, cell: _Cell) -> str:
         """Return the text of a cell that should hold a number, of a calculation its result; note what is wrong."""
-        text = self.read(cell, lambda: cells.checked(self.grid, cell.row, cell.column)) or ""
+        text = self.keyed(cell, self.read(cell, lambda: cells.checked(self.grid, cell.row, cell.column)) or "")
         slip = cells.slip_in(text)
         if slip is not None:
             makes = f"{slip.makes:.7g}"
@@ -277,8 +284,9 @@ class _Sheet:
         try:
             return cells.value(text, cell.unit, cell.name, self.asked) if text else None, ""
         except InputError as error:
-            self.refuse(cell, error)
-            if not error.key.startswith("unit-"):
+            garbled = error.key.startswith("unit-unknown") and cells.is_garbled(text)
+            self.refuse(cell, "number-bad" if garbled else error, text)
+            if garbled or not error.key.startswith("unit-"):
                 return None, ""
             names = (error.data.get("text", ""), self.asked.quantities[cell.name].unit)
             slip = error.key != "unit-wrong" or len({re.sub(r"\W", "", name) for name in names}) == 1
@@ -303,6 +311,7 @@ class _Sheet:
         text, vector = self.grid.text(cell.row, cell.column), self.asked.quantities[cell.name].kind == "vector"
         if text in cells.NONE and (text not in ("-", "–") or (vector and not answered)):
             return None, None
+        text = self.keyed(cell, text)
         angle, sense = self.read(cell, lambda: cells.direction(text, vector)) or (None, None)
         if angle is not None and self.asked.quantities[cell.name].kind == "scalar":
             self.refuse(cell, "answer-sense", text)
