@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from copy import copy
@@ -154,6 +154,12 @@ def _shown(value: object, language: str) -> object:
 
 class InputError(KulmanError, ValueError):
     """What was asked or given cannot be used; nothing has been written."""
+
+
+def together(faults: Iterable[KulmanError]) -> KulmanError:
+    """Return one error that tells all of the faults, of which there is at least one; a single one is itself."""
+    found = [*faults]
+    return found[0] if len(found) == 1 else InputError("faults", faults=found)
 
 
 class UnknownNameError(InputError, KeyError):

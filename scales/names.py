@@ -13,7 +13,7 @@ from itertools import chain, repeat
 from numbers import Integral
 from typing import Any, ParamSpec, TypeVar
 
-from .errors import InputError, UnknownNameError, Written
+from .errors import InputError, UnknownNameError, Written, together
 from .numbers import quote
 
 _CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
@@ -177,7 +177,7 @@ def names_of(
 
 
 def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
-    """Refuse, with the message `key`, the first of the names that is not known."""
-    for name in names:
-        if name not in known:
-            raise unknown(key, name, known)
+    """Refuse, with the message `key`, the names that are not known."""
+    faults = [unknown(key, name, known) for name in names if name not in known]
+    if faults:
+        raise together(faults)

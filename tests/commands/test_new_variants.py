@@ -430,8 +430,11 @@ def test_a_unit_of_a_header_is_never_passed_over(header: str, given: str, said: 
 
 def test_numbers_without_ids_are_counted_and_data_that_are_missing_named(tmp_path: Path) -> None:
     assert list(values(load_task(TASK), table(tmp_path, "phi;l_OA\n\n30;25\n45;30\n\n\n"))) == ["1", "2"]
-    with pytest.raises(InputError, match=r"table\.csv: A2, 1: no value of l_OA is given"):
-        import_variants(TASK, table(tmp_path, "Варіант;phi;l_AB\n1;30;125\n"))
+    missing = r"A2, 1: no value is given of: l_OA, l_AS2, n_1, m_2, m_3, J_S2, F_3$"
+    with pytest.raises(InputError, match=missing):
+        import_variants(TASK, table(tmp_path, "Варіант;phi;l_AB\n1;30;125\n2;30;125\n"))
+    with pytest.raises(InputError, match=r"B2, phi: 'abc' .*; .*C2, l_AB: 'def' "):
+        import_variants(TASK, table(tmp_path, "Варіант;phi;l_AB\n1;abc;def\n"))
 
 
 def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from functools import cache
 from itertools import starmap
 
 from ...drawing.writers import slug
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, together
 from ...scales.names import by_name, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
@@ -110,18 +110,20 @@ def import_variants(task: AnyTask, file: str | os.PathLike[str]) -> NewVariants:
     found = load_task(task)
     rows: dict[str, Mapping[str, str]] = {}
     pages = _most_pages(found)
+    first: tuple[KulmanError, ...] = ()  # what is wrong with the first variant that is left out
     left_out: list[KulmanError] = []
     remarks: list[KulmanError] = []
     for read in _read_variants(os.fspath(file), found):
         reasons, remark = _judged(found, read, pages)
         if not reasons and read.id in rows:
             reasons = (LocatedError(read.place, InputError("variant-twice")),)
+        first = first or reasons
         left_out.extend(reasons)
         remarks.extend(remark)
         if not reasons:
             rows[read.id] = read.row
     if not rows:
-        raise left_out[0] if left_out else InputError("answers-empty", file=quote(os.fspath(file)))
+        raise together(first) if first else InputError("answers-empty", file=quote(os.fspath(file)))
     return replace(_task_with(found, rows), left_out=tuple(left_out), remarks=tuple(remarks))
 
 
@@ -134,9 +136,11 @@ def _judged(
     try:
         alone = _task_with(task, {read.id: read.row}).task
     except TaskFileError as error:
-        causes = (fault.cause if isinstance(fault, LocatedError) else fault for fault in error.faults)
+        causes = [fault.cause if isinstance(fault, LocatedError) else fault for fault in error.faults]
         # a spreadsheet has no lines and keys
-        plain = (InputError("variants-missing", name=c.data["name"]) if c.key == "key-missing" else c for c in causes)
+        missing = ", ".join(cause.data["name"] for cause in causes if cause.key == "key-missing")
+        plain: list[KulmanError] = [InputError("variants-missing", name=missing)] * bool(missing)
+        plain += [cause for cause in causes if cause.key != "key-missing"]
         return tuple(LocatedError(read.place, cause) for cause in plain), ()
     reason, remark = (
         () if one is None else (LocatedError(read.place, one),) for one in _looked_at(alone, read.id, {}, pages)

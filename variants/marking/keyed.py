@@ -21,7 +21,7 @@ from ...plans.marking.key import Key, Question, answer_key, hanging_on
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, together
 from ...scales.names import all_known, latin, unknown
 from ...scales.numbers import SHOWN, quote, split_number
 from ...scales.scale import Display
@@ -46,6 +46,8 @@ NOTHING = 1e-6  # part of a tolerance that is rounding
 RATES = ("omega", "epsilon")  # kinds of quantities of links
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
+LARGEST_NUMBER = 1_000_000  # of a rubric
+TOLERANCES = {"mm": LARGEST_NUMBER, "percent": 100, "degrees": 180}  # with the largest of each
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
 DATA = "data"  # of one's own, for which a form is
 PLANS = "plans"  # which of them a form asks for, if not all
@@ -177,7 +179,7 @@ def _read(file: str | Path, usual: Tolerance, asked: Asked) -> Rubric:
     with suppress(EnoughError):
         read = record(checker, (), raw, _fields(asked))
     if checker.faults:
-        raise min(checker.faults, key=itemgetter(0, 1))[2]
+        raise together(fault for _, _, fault in sorted(checker.faults, key=itemgetter(0, 1)))
     own, worth = read.get("tolerance", {}), {Verdict(name): part for name, part in read.pop("worth", {}).items()}
     part = own["percent"] / 100.0 if "percent" in own else usual.part
     tolerance = Tolerance(own.get("mm", usual.mm), part, own.get("degrees", usual.degrees))
@@ -194,13 +196,13 @@ def _fields(asked: Asked) -> dict[str, Field]:
         all_known("quantity-unknown", raw, quantities)
         return tuple(raw)
 
-    def number(raw: object) -> float:
+    def number(raw: object, most: int = LARGEST_NUMBER) -> float:
         try:
             found, unit = split_number(raw) if isinstance(raw, str) else (raw, "")  # a decimal comma needs quotes
         except InputError:
             found, unit = None, ""
-        if unit or isinstance(found, bool) or not isinstance(found, (int, float)) or not 0.0 <= found < 1e9:
-            raise InputError("rubric-number", text=quote(raw))
+        if unit or isinstance(found, bool) or not isinstance(found, (int, float)) or not 0.0 <= found <= most:
+            raise InputError("rubric-number", text=quote(raw), most=most)
         return float(found)
 
     def limit(raw: object, name: str) -> float:
@@ -211,8 +213,8 @@ def _fields(asked: Asked) -> dict[str, Field]:
 
     tables: dict[str, dict[str, Read]] = {
         "weights": dict.fromkeys(quantities, trying(number)),
-        "worth": dict.fromkeys(map(str, Verdict), trying(number)),
-        "tolerance": dict.fromkeys(("mm", "percent", "degrees"), trying(number)),
+        "worth": dict.fromkeys(map(str, Verdict), trying(partial(number, most=1))),
+        "tolerance": {key: trying(partial(number, most=most)) for key, most in TOLERANCES.items()},
         "limits": {name: trying(partial(limit, name=name)) for name in quantities},
     }
     return optional({
