@@ -6,6 +6,7 @@ import math
 import random
 import time
 from functools import cache
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kulman import check
-from kulman.scales.errors import InputError
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.answer_files import HEAD, messages, one, write
 from kulman.variants.marking.cells import LONGEST, Mu, rounded, scale_factor, slip_in, split_sense
 from kulman.variants.marking.checks import Check
@@ -383,6 +384,26 @@ def test_directions_are_required_optional_or_ignored(
     with pytest.raises(InputError, match="maybe"):
         check(TASK, "1", directions="maybe")
     assert (marked.mark, f"{line.verdict} {line.about}".strip()) == (mark, verdict)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_line_that_earns_half_without_its_direction_says_so(tmp_path: Path, language: str) -> None:
+    """Three right rows without directions earned 2 of 5, and no word of the report said why."""
+    half = {"uk": "без напряму чи знака: половина", "ru": "без направления или знака: половина"}
+    rows = [*form("omega_2", "28.79"), ["V_B", "3.386", ""], ["V_A", "5.65", "315"], ["epsilon_2", "1e9", ""]]
+    file = str(write(tmp_path, rows))
+
+    for directions, halved in (("required", ["V_B", "omega_2"]), ("optional", []), ("ignored", [])):
+        of_task = check(TASK, "1", lang=language, directions=directions)
+        report = of_task.mark(of_task.read(file)[0])
+        said = {row.line.name: half.get(language, "without direction or sense: half") in row.verdict
+                for _, rows in report.parts for row in rows}  # fmt: skip
+        assert [name for name, one in said.items() if one] == halved
+        noted = [note for note in report.marked.notes if note.key == "marked-halved"]
+        assert [note.data["n"] for note in noted] == [2] * bool(halved)
+        for text in (note.text(language) for note in noted):
+            assert text in report.text()
+            assert escape(text) in report._repr_html_()
 
 
 @pytest.mark.parametrize(

@@ -97,10 +97,13 @@ class Rubric:
         """Return the mark, to a tenth."""
 
         def earned(line: Line) -> float:
-            less = self.directions == "required" and _wants_direction(line)
-            return parts[line.name] * (self.worth.get(line.verdict, 1.0) * (SIZE_ALONE if less else 1.0))
+            return parts[line.name] * self.worth.get(line.verdict, 1.0) * (SIZE_ALONE if self.halves(line) else 1.0)
 
         return round(self.out_of * sum(map(earned, lines)), 1)
+
+    def halves(self, line: Line) -> bool:
+        """Whether a line earns less because it lacks a direction or sense that is required."""
+        return self.directions == "required" and self.worth.get(line.verdict, 1.0) > 0.0 and _wants_direction(line)
 
     def compared(self, answer: Answer, question: Question) -> Answer:
         """Return what counts of an answer; the sign of a number without a unit is no sense."""

@@ -362,6 +362,8 @@ class Desk:
         notes += undefined
         untold = len(vectors) > 1 and all(answer.direction is None for answer in vectors)
         notes += [InputError("marked-directions")] if untold and rubric.directions != "ignored" else []
+        halved = sum(map(rubric.halves, lines))
+        notes += [InputError("marked-halved", n=halved)] if halved else []
         mark_of, all_notes = rubric.mark(lines, parts), (*answers.problems, *notes)
         return Marked(
             answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits, on_drawing, sheets,

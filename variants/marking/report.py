@@ -278,6 +278,7 @@ class Report(Saved):
             weight = self.words.short(round(self.rubric.out_of * self.marked.parts[line.name], 1), DIGITS)
             tolerance = f"± {self._shown(line, line.allowed)}" if line.allowed else ""
         verdict = self.said[f"verdict.{line.verdict}"]
+        verdict += f"; {self.said['report.halved']}" if self.rubric.halves(line) else ""
         return _Row(line, self.symbol(line.name), self._answer(line), right, tolerance, verdict, weight)
 
     def _answer(self, line: Line) -> str:
