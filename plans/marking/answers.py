@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from ..laws import cross, dot
 
+QUARTER = math.pi / 4.0  # on either side of a word of direction
 FREE = re.compile(r"R_\w+$|M_(\d\d|\d+_\d+)$|[MF]_bal(_lever)?$")  # whose sense is assumed, and found by the sign
 
 
@@ -24,6 +25,9 @@ class Answer:
     mu: float | None = None  # the scale factor as the student writes it: value per mm, or mm per unit
     value: float | None = None  # of a vector its magnitude
     direction: float | None = None  # radians from the x axis, of a vector
+    side: bool = (
+        False  # whether it is said by a word, such as left, which means all that is nearer to it than to others
+    )
     sense: int | None = None  # of a scalar, said beside it: +1 counter-clockwise (or along the axis), -1 the other way
     plus: bool = False  # whether the value has one: without it a positive value says nothing of the sense
     rounded: float | None = None  # half of the last digit of the value as it was written
@@ -55,6 +59,14 @@ class Said:
     size: float | None
     sign: int | None
     direction: complex | None
+    side: bool = False  # of a word: all within `QUARTER` of the direction
+
+    def off(self, vector: complex) -> float:
+        """Return by what angle, radians, a vector is off the direction, or off all that a word means."""
+        if self.direction is None:
+            return 0.0
+        turned = abs(math.atan2(cross(vector, self.direction), dot(vector, self.direction)))
+        return max(turned - QUARTER, 0.0) if self.side else turned
 
     def taken(self, follows: Any) -> Any:
         """Return the value to go on with: what the answer does not say is taken from what follows without it."""
@@ -62,7 +74,7 @@ class Said:
         size = length if self.size is None else self.size
         if not isinstance(follows, complex):
             return size * (self.sign if self.sign is not None else -1.0 if follows < 0.0 else 1.0)
-        if self.direction is not None:
+        if self.direction is not None and not (self.side and length and not self.off(follows)):
             return self.direction * size
         return follows * (size * (1.0 / length)) if length else follows
 
@@ -92,11 +104,14 @@ def readings(answer: Answer, values: tuple[float, ...], plain: bool) -> tuple[Sa
         sign = answer.sense if answer.sense else None
         if minus and free:
             opposite = None if turned is None else turned * -1.0
-            found += [Said(size, sign, turned), Said(size, None if sign is None else -sign, opposite)]
+            found += [
+                Said(size, sign, turned, answer.side),
+                Said(size, None if sign is None else -sign, opposite, answer.side),
+            ]
         else:
             positive = plain or (answer.plus and not free)
             written = -1 if minus else 1 if positive and size else None
-            found.append(Said(size, written if sign is None else sign, turned))
+            found.append(Said(size, written if sign is None else sign, turned, answer.side))
     return tuple(found)
 
 
@@ -129,7 +144,7 @@ def miss(said: Said, value: Any, allowed: float, angle: float = math.pi) -> Miss
     if said.direction is None or size <= allowed:
         return Miss(off, SIZE)
     most = max(angle, math.asin(allowed / size))
-    turned = abs(math.atan2(cross(value, said.direction), dot(value, said.direction))) / most
+    turned = said.off(value) / most
     return Miss(turned, DIRECTION) if off <= 1.0 < turned else Miss(max(off, turned), SIZE)
 
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..board import Step
 from ..hands.shaky import Paper
 from ..marking.again import Judged
-from ..marking.answers import DIRECTION, FREE, Answer, Line, Said, Verdict, known, miss, nearest
+from ..marking.answers import DIRECTION, FREE, QUARTER, Answer, Line, Said, Verdict, known, miss, nearest
 from ..marking.key import Key
 from ..marking.verdicts import CLEAR, RATES, Marking, judge
 from ..names import role
@@ -510,7 +510,8 @@ def _astray(key: Key, line: Line, answer: Answer) -> bool:
     told = answer.direction is not None and known(answer.direction)
     turned = cmath.rect(1.0, answer.direction or 0.0) if told else None
     sign = answer.sense or (int(math.copysign(1.0, answer.value)) if answer.value else None)
-    return miss(Said(None, sign, turned), line.right, line.allowed, key.angles.get(line.name, math.pi)).off > 1.0
+    said, angle = Said(None, sign, turned, answer.side), key.angles.get(line.name, math.pi)
+    return miss(said, line.right, line.allowed, angle).off > 1.0
 
 
 def _columns(marking: Marking) -> _Answers:
@@ -521,6 +522,7 @@ def _columns(marking: Marking) -> _Answers:
     minus = [line.answer is not None and (line.answer.value or 0.0) < 0.0 for line in marking.lines]
     free = np.array([bool(FREE.match(line.name)) and m for line, m in zip(marking.lines, minus, strict=True)])
     angle = np.array([marking.key.angles.get(line.name, np.pi) for line in marking.lines])
+    angle += np.where([s.side for s in said], QUARTER, 0.0)  # a word means all of its side
     return _Answers(size, way, free, angle)
 
 

@@ -386,6 +386,28 @@ def test_directions_are_required_optional_or_ignored(
     assert (marked.mark, f"{line.verdict} {line.about}".strip()) == (mark, verdict)
 
 
+@pytest.mark.parametrize(
+    ("value", "direction", "verdict"),
+    [
+        *(("0,6019", word, "right") for word in ("влево", "ліворуч", "left", "←", "193,4", "193,4°")),
+        *(("0,6019", text, "wrong direction") for text in ("вправо", "вниз", "↑", "180", "180°")),
+        *(
+            ("0,6019 м/с влево", "", "right"),
+            ("0,6019 left", "193", "right"),
+            ("0,6019 left", "185", "wrong direction"),
+        ),
+    ],
+)
+def test_a_word_of_direction_is_right_in_its_quarter(tmp_path: Path, value: str, direction: str, verdict: str) -> None:
+    of_task = check("scheme-09-shaper", "3", lang="en")
+
+    report = of_task.mark(of_task.read(str(write(tmp_path, form("V_A3C", value, direction))))[0])
+    line = report.marked.marking["V_A3C"]  # at 193.4°
+
+    assert f"{line.verdict} {line.about}".strip() == verdict
+    assert ("180° ± 45°" in report.text()) is bool({"влево", "ліворуч", "left", "←", ""} & {direction})
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_line_that_earns_half_without_its_direction_says_so(tmp_path: Path, language: str) -> None:
     """Three right rows without directions earned 2 of 5, and no word of the report said why."""

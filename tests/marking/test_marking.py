@@ -307,6 +307,25 @@ def test_a_vector_or_a_rate_the_wrong_way_is_wrong_however_right_its_equal_is(ta
     assert passed == []
 
 
+@pytest.mark.parametrize("task", some(LINKAGES, *range(1, 99, 3)))
+def test_a_word_of_direction_means_a_quarter_of_all_and_a_number_itself(task: str) -> None:
+    """A vector at 175.8° to which a student wrote *left* was wrong by 4.2°."""
+    of = key(task)
+    exact = {one.name: one.direction for one in right_answers(of) if one.direction is not None}
+    words = {name: math.pi / 2 * round(angle / (math.pi / 2)) for name, angle in exact.items()}
+    other = {name: word + math.copysign(math.pi / 2, word - exact[name]) for name, word in words.items()}
+
+    def told(directions: Mapping[str, float], side: bool) -> dict[str, Verdict]:
+        said = [replace(a, direction=directions.get(a.name, a.direction), side=side) for a in right_answers(of)]
+        return {line.name: line.verdict for line in mark(of, said).lines}
+
+    clear = [name for name in exact if abs(of[name]) > CLEAR * of.allowed[name]]
+    far = [name for name in clear if abs(words[name] - exact[name]) > math.radians(20.0)]
+    assert set(told(words, side=True).values()) <= {Verdict.RIGHT, Verdict.SMALL}
+    assert all(told({name: other[name]}, side=True)[name] is Verdict.WRONG for name in clear[:9])
+    assert all(told({name: words[name]}, side=False)[name] is Verdict.WRONG for name in far[:9])
+
+
 def test_the_sense_of_other_rates_is_not_free_and_a_wrong_size_not_called_a_direction() -> None:
     right = EXAMPLE["omega_2"]
     turned = Answer("omega_2", value=abs(right), sense=-int(math.copysign(1.0, right)))

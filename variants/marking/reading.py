@@ -335,7 +335,9 @@ class _Sheet:
             foreign = ""
         plus = value is not None and text.startswith("+")
         last = None if value is None else cells.rounded(text, value)
-        reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu, (of_no_paper, foreign))
+        side = angle is not None and not any(map(str.isdigit, self.grid.text(row, of_direction.column)))
+        told = (value, angle, side, sense, plus, last)
+        reply = Reply(name, mm, None, *told, place, decimals, mu, (of_no_paper, foreign))
         if not reply.empty and name in self.lines:
             again = InputError("answer-again", place=self.lines[name].place)
             self.refuse(_Cell(row, own, name), again)

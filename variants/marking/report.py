@@ -297,7 +297,7 @@ class Report(Saved):
             value = f"{value.rpartition(' ')[0]} {reply.foreign[1]}" if reply.foreign[1] else value
             parts.append("+" * answer.plus + value)
         if answer.direction is not None:
-            parts.append(self._degrees(answer.direction))
+            parts.append(self._degrees(answer.direction) + " ± 45°" * answer.side)
         if answer.sense is not None:
             parts.append("+" if answer.sense > 0 else "−")
         return "; ".join(parts)
