@@ -156,7 +156,7 @@ class InputError(KulmanError, ValueError):
     """What was asked or given cannot be used; nothing has been written."""
 
 
-def together(faults: Iterable[KulmanError]) -> KulmanError:
+def as_one(faults: Iterable[KulmanError]) -> KulmanError:
     """Return one error that tells all of the faults, of which there is at least one; a single one is itself."""
     found = [*faults]
     return found[0] if len(found) == 1 else InputError("faults", faults=found)

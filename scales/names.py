@@ -13,7 +13,7 @@ from itertools import chain, repeat
 from numbers import Integral
 from typing import Any, ParamSpec, TypeVar
 
-from .errors import InputError, UnknownNameError, Written, together
+from .errors import InputError, UnknownNameError, Written, as_one
 from .numbers import quote
 
 _CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
@@ -180,4 +180,4 @@ def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
     """Refuse, with the message `key`, the names that are not known."""
     faults = [unknown(key, name, known) for name in names if name not in known]
     if faults:
-        raise together(faults)
+        raise as_one(faults)

@@ -98,11 +98,12 @@ LARGEST_OF = {_PRESSURE: 1e15}  # what is large in SI already
 _SUPERSCRIPT = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
 _TOKEN = re.compile(
     r"\s*(?:(?P<power>(?:\^|\*\*)\s*(?:[-−]?[0-9]|\([-−]?[0-9]\))|[-−]?[0-9]|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹])"
-    r"|(?P<sign>[*·⋅×∙/()])|(?P<symbol>[A-Za-zµμА-Яа-яІіЇїЄєҐґ]+|[°º˚′'’%]))\s*"
+    r"|(?P<sign>[*·⋅×∙./()])|(?P<symbol>[A-Za-zµμА-Яа-яІіЇїЄєҐґ]+|[°º˚′'’%]))\s*"
 )
 # Нм, kgm²: moments as they are written by hand
 _JOINED = re.compile(r"\b([kк]?[NН]|kg|кг)((?:[mм]|[cс])?[mм])(?![A-Za-zА-Яа-яІіЇїЄєҐґ])")
-_TIMES = frozenset("*·⋅×∙")
+_FULL_STOP = re.compile(r"(?<=\S)\.(?![^\W⁰¹²³⁴⁵⁶⁷⁸⁹])")  # об./мин.; between letters it multiplies: Н.м
+_TIMES = frozenset("*·⋅×∙.")
 _LONGEST = 40
 
 Powers = list[tuple[str, int]]
@@ -206,7 +207,7 @@ def unit(text: str) -> Unit:
 def _tokens(text: str) -> list[tuple[str, str]]:
     """Cut a unit into (kind, token), the last one first."""
     tokens: list[tuple[str, str]] = []
-    at, apart = 0, _JOINED.sub(r"\1*\2", text) if len(text) <= _LONGEST else ""
+    at, apart = 0, _JOINED.sub(r"\1*\2", _FULL_STOP.sub("", text)) if len(text) <= _LONGEST else ""
     if text and not apart:
         raise _unknown(text)
     while at < len(apart):

@@ -459,6 +459,24 @@ def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path
 
 
 @pytest.mark.parametrize(
+    ("task", "letters"),
+    [
+        ("scheme-09-shaper", {"l_CA": "CA", "V_D": "pd"}),
+        ("bertyaev-six-bar", {"l_AP2": "AP2", "l_O1D": "O1D"}),
+        ("scheme-20-press-automaton", {"l_BC": "BC"}),
+    ],
+)
+def test_a_form_has_the_letters_of_all_that_is_measured_between_points(
+    tmp_path: Path, task: str, letters: dict[str, str]
+) -> None:
+    rows = read_grid(form(tmp_path, "form.csv", "uk", task)).rows
+    told = {row[0]: row[2] for row in rows if len(row) > 2}
+
+    assert {name: told[name] for name in letters} == letters
+    assert [name for name, letters in told.items() if name.startswith("l_") and not letters] == []
+
+
+@pytest.mark.parametrize(
     "heads",
     [
         "Ф.И.О.;Вариант №",

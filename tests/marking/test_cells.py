@@ -129,7 +129,14 @@ def test_slips_of_the_pen_in_the_sources_are_found(task: str, told: list[str]) -
 
 
 def test_units_stand_in_cells(tmp_path: Path) -> None:
-    lines = {"12,5 мм": (12.5, 1), "12.5mm": (12.5, 1), "1,25 см": (12.5, 1), " 12,50 ": (12.5, 2), "0": (0.0, 0)}
+    lines = {
+        "12,5 мм": (12.5, 1),
+        "12.5mm": (12.5, 1),
+        "12,5 мм.": (12.5, 1),
+        "1,25 см": (12.5, 1),
+        " 12,50 ": (12.5, 2),
+        "0": (0.0, 0),
+    }
     for cell, (mm, decimals) in lines.items():
         answers = one(tmp_path, f"{HEAD}V_B;{cell};;2,76;;\n")
 
@@ -156,10 +163,21 @@ def test_a_scale_factor_is_meant_either_way_unless_its_unit_says_which(
 
 
 @pytest.mark.parametrize(
-    ("written", "mu"), [("0.5 cm/mm", 5e-3), ("0.5 мм/м", 2.0), ("2 мм/мм", 2e-3), ("2 m/mm", 2.0)]
+    ("written", "mu"),
+    [
+        *(("0.5 cm/mm", 5e-3), ("0.5 мм/м", 2.0), ("2 мм/мм", 2e-3), ("2 m/mm", 2.0)),
+        *(("1:5", 5e-3), ("М 1 : 2,5", 2.5e-3), ("2:1", 0.5e-3)),
+    ],
 )
 def test_a_scale_factor_of_lengths_in_mm_says_which_way_it_is_meant(written: str, mu: float) -> None:
     assert scale_factor(written, "", "m/mm", "m/mm") == Mu(pytest.approx(mu), sure=True)
+    if ":" in written:
+        assert scale_factor(written, "м/мм", "m/mm", "m/mm") == Mu(pytest.approx(mu), sure=True)
+        for bad in (f"{written}0 Н", written.replace("1", "0")):
+            with pytest.raises(InputError):
+                scale_factor(bad, "", "m/mm", "m/mm")
+        with pytest.raises(InputError):  # of what is no length
+            scale_factor(written, "", "(m/s)/mm", "(m/s)/mm")
 
 
 @pytest.mark.parametrize(

@@ -174,6 +174,9 @@ def test_answers_are_marked_from_python_without_a_word(tmp_path: Path, capsys: P
     assert told == ["file-missing"]
     with pytest.raises(InputError):
         asked.read(files[0], str(tmp_path / "none.csv"))
+    with pytest.raises(InputError, match=r"V_B: 'abc' is not a number.*; .*a_B: 'def'"):
+        asked.mark({"V_B": "abc", "a_B": "def"})
+    assert asked.mark({"V_B": "abc", "a_B": "295 м/с²"}).marked.notes[0].key == "number-bad"
     assert capsys.readouterr() == ("", "")
 
 

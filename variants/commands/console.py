@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 import click
 
 from ...scales.choices import LETTERINGS, PROFILES, SIZES
-from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language, together
+from ...scales.errors import LANGUAGES, InputError, KulmanError, as_one, system_language
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from . import helping
@@ -109,7 +109,7 @@ def settings() -> dict[str, str]:
         checker = Checker(shown, Places(text))
         for key, fault in faults.items():
             checker.fault((key,), fault)
-        raise together(fault for _, _, fault in sorted(checker.faults, key=lambda one: one[:2]))
+        raise as_one(fault for _, _, fault in sorted(checker.faults, key=lambda one: one[:2]))
     return {name: value for name, value in values.items() if value}
 
 

@@ -347,13 +347,14 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return plan_heading(words, solved.structure, plan)
 
     def vector_letters(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
-        """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
+        """Return the letters of the vector that shows a quantity on its plan, pb, ab, n_BA b, or of its ends, CA."""
         from ...drawing.linkages.reading import read
         from ...drawing.linkages.scene import is_at_point
 
         reading = read(solved.program)
         plans = (plan for plan in solved.program.plans if not is_at_point(plan))
-        found: dict[str, str] = {}
+        lengths = (step.name.partition("_") for step in solved.program.which(("measure", "distance")))
+        found = {f"l_{ends}": ends for kind, _, ends in lengths if kind == "l"}
         for edge in (edge for plan in plans for edge in reading.on(plan)):
             tail, tip = (letter(words, mark) for mark in (edge.tail, edge.tip))
             found.setdefault(role(edge.name).shown, f"{tail}{tip}")

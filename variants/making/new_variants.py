@@ -14,7 +14,7 @@ from functools import cache
 from itertools import starmap
 
 from ...drawing.writers import slug
-from ...scales.errors import InputError, KulmanError, together
+from ...scales.errors import InputError, KulmanError, as_one
 from ...scales.names import by_name, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
@@ -123,7 +123,7 @@ def import_variants(task: AnyTask, file: str | os.PathLike[str]) -> NewVariants:
         if not reasons:
             rows[read.id] = read.row
     if not rows:
-        raise together(first) if first else InputError("answers-empty", file=quote(os.fspath(file)))
+        raise as_one(first) if first else InputError("answers-empty", file=quote(os.fspath(file)))
     return replace(_task_with(found, rows), left_out=tuple(left_out), remarks=tuple(remarks))
 
 

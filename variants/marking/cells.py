@@ -38,6 +38,7 @@ _WIDE = str.maketrans("＋－", "+-")
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"[^0-9.,]*+[0-9 \u00a0\u2009\u202f]*+[.,]([0-9]+)")
 _ANGLE = re.compile(r"[0-9]{1,9}(?:[.,][0-9]{1,9})?")  # in degrees
+_RATIO = re.compile(r"(?:[MМ]\s*)?([0-9]{1,9}(?:[.,][0-9]{1,9})?)\s*:\s*([0-9]{1,9}(?:[.,][0-9]{1,9})?)")  # 1:2,5
 MM, DEGREE = unit("mm"), unit("deg")
 NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
 LONGEST = 250  # characters of a calculation
@@ -179,14 +180,18 @@ def segment(text: str, written: str) -> tuple[float, int]:
 
 
 def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> Mu:
-    """Return a scale factor in SI per millimetre; a unit may be `written` beside the number.
+    """Return a scale factor in SI per millimetre, of lengths also `1:5`; a unit may be `written` beside the number.
 
     The unit per millimetre is that in SI, and as the task shows it: what a bare number is meant in. What is no number
     is refused, and one that is not positive, or a unit that is none of a scale factor of this plan.
     """
-    number, rest = split_number(text)
-    if number <= 0.0:
+    ratio = _RATIO.fullmatch(text) if unit(per_mm) == unit("m/mm") else None
+    number, rest = split_number(ratio[2] if ratio else text)
+    drawn = split_number(ratio[1])[0] if ratio else 1.0
+    if number <= 0.0 or drawn <= 0.0:
         raise InputError("scale-not-positive", text=quote(text))
+    if ratio:  # of the drawing to what is drawn
+        return Mu(converted(number / drawn, MM, MM), sure=True)
     name, si = rest or written, unit(per_mm)
     own = _known(name, si) if name else unit(display_per_mm)
     on_paper = {("mm", 1), ("cm", 1)}

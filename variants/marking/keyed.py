@@ -21,7 +21,7 @@ from ...plans.marking.key import Key, Question, answer_key, hanging_on
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
-from ...scales.errors import InputError, KulmanError, together
+from ...scales.errors import InputError, KulmanError, as_one
 from ...scales.names import all_known, latin, unknown
 from ...scales.numbers import SHOWN, quote, split_number
 from ...scales.scale import Display
@@ -182,7 +182,7 @@ def _read(file: str | Path, usual: Tolerance, asked: Asked) -> Rubric:
     with suppress(EnoughError):
         read = record(checker, (), raw, _fields(asked))
     if checker.faults:
-        raise together(fault for _, _, fault in sorted(checker.faults, key=itemgetter(0, 1)))
+        raise as_one(fault for _, _, fault in sorted(checker.faults, key=itemgetter(0, 1)))
     own, worth = read.get("tolerance", {}), {Verdict(name): part for name, part in read.pop("worth", {}).items()}
     part = own["percent"] / 100.0 if "percent" in own else usual.part
     tolerance = Tolerance(own.get("mm", usual.mm), part, own.get("degrees", usual.degrees))

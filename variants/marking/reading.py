@@ -16,7 +16,7 @@ from ...drawing.words import GREEK
 from ...plans.marking.answers import FREE, Answer
 from ...plans.marking.lines import Drawn
 from ...plans.quantities import Quantity
-from ...scales.errors import InputError, KulmanError, Written
+from ...scales.errors import InputError, KulmanError, Written, as_one
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote, split_number
 from ...scales.units import UnitName, unit
@@ -193,7 +193,10 @@ def answers_of(said: Mapping[str, Any], asked: Asked) -> Answers:
             if name not in asked.names:
                 raise unknown("quantity-unknown", name, asked.names)
             raise LocatedError(name, InputError("type-quantity", expected=asked.quantities[name].unit))
-    return _form(Grid("answers", tuple(rows)), 0, {"name": 0, "value": 1, "unit": 2}, asked)
+    found = _form(Grid("answers", tuple(rows)), 0, {"name": 0, "value": 1, "unit": 2}, asked)
+    if not found.lines and not found.scales and found.problems:  # which nobody would look for in a report without marks
+        raise as_one(found.problems)
+    return found
 
 
 def _first(kinds: Iterable[str | None]) -> dict[str, int]:
