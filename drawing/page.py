@@ -19,7 +19,7 @@ from .font import SCREEN, SLANTED, font
 from .formats import HEAD_HALF_WIDTH, ZERO, Norm, Pens, pens_for
 from .letters import DOT, drawn
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, sides_of
-from .text import LETTERING, STROKES, Box, Run, corners, lay_out, lettered, placer
+from .text import LETTERING, STROKES, Box, Run, corners, laid_out, lettered, placer
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,7 +231,7 @@ class Walk(ABC):
 
     def _text(self, text: Text) -> None:
         """Put down the runs of a text, and its rules as thin lines."""
-        lines, place = lay_out(text.markup, text.height), placer(text)
+        lines, place = laid_out(text), placer(text)
         strokes = self.page.lettering == STROKES
         alone = len(lines.runs) == 1 and not lines.rules and not strokes
         if not alone:

@@ -209,18 +209,24 @@ def lettered(lettering: str, language: str = "en") -> Iterator[None]:
         LETTERING.reset(before)
 
 
-def lay_out(markup: str, height: float) -> _TextLayout:
-    """Lay a line of markup out with capitals of `height` mm, in the lettering of now.
+def lay_out(markup: str, height: float, symbols: bool = True) -> _TextLayout:
+    """Lay a line of markup out with capitals of `height` mm, in the lettering of now; without `symbols` all are words.
 
     Raises InputError: the markup is broken, or the fonts lack a character.
     """
-    return _lay_out(markup, height, LETTERING.get())
+    return _lay_out(markup, height, LETTERING.get(), symbols)
+
+
+def laid_out(text: Text) -> _TextLayout:
+    """Lay a text out: what stands in the title block and under the frame are words, whatever their letters."""
+    return lay_out(text.markup, text.height, text.role != "stamp")
 
 
 @lru_cache(maxsize=8192)
-def _lay_out(markup: str, height: float, lettering: _Lettering) -> _TextLayout:
+def _lay_out(markup: str, height: float, lettering: _Lettering, symbols: bool) -> _TextLayout:
     pen = _Pen(lettering)
-    width, top, bottom = pen.line(_told(markup, lettering.latin_units), 0.0, 0.0, height, height)
+    told = _told(markup, lettering.latin_units) if symbols else [(piece, False) for piece in read(markup)]
+    width, top, bottom = pen.line(told, 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
     left = [run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in pen.runs]
@@ -380,13 +386,13 @@ class _Pen:
 def placer(text: Text) -> Callable[[float, float], complex]:
     """Return what tells where on the sheet the point (x, y) of the text's layout lies."""
     at, squeeze, turn = text.at, text.squeeze, complex(cos(text.angle), sin(text.angle))
-    before = _SHARES[text.anchor] * lay_out(text.markup, text.height).width
+    before = _SHARES[text.anchor] * laid_out(text).width
     return lambda x, y: at + complex((x - before) * squeeze, y) * turn
 
 
 def corners(text: Text) -> tuple[complex, complex, complex, complex]:
     """Return the corners of the rectangle that `text` fills, which turns with it."""
-    lines, place = lay_out(text.markup, text.height), placer(text)
+    lines, place = laid_out(text), placer(text)
     start, end = place(0.0, lines.bottom), place(lines.width, lines.bottom)
     up = place(0.0, lines.top) - start
     return start, end, end + up, start + up

@@ -340,7 +340,7 @@ def _extent(lines: list[str], height: float) -> tuple[float, float, float]:
 
     That is bottom and top of what is seen, measured from the baseline of the first line.
     """
-    layouts = [lay_out(escape(line), height) for line in lines]
+    layouts = [lay_out(escape(line), height, symbols=False) for line in lines]
     bottom = min(layout.bottom - row * PITCH * height for row, layout in enumerate(layouts))
     top = max(layout.top - row * PITCH * height for row, layout in enumerate(layouts))
     return ((len(lines) - 1) * PITCH + 1 + FALL) * height, bottom, top
@@ -357,9 +357,9 @@ def _wrapped(words: list[str], height: float, wide: float) -> list[str]:
     lines: list[str] = []
     for word in words:
         longer = f"{lines[-1]} {word}" if lines else word
-        if lay_out(escape(word), height).width > wide:
+        if lay_out(escape(word), height, symbols=False).width > wide:
             return []
-        if lines and lay_out(escape(longer), height).width <= wide:
+        if lines and lay_out(escape(longer), height, symbols=False).width <= wide:
             lines[-1] = longer
         else:
             lines.append(word)

@@ -7,10 +7,12 @@ import shapely
 from lxml import etree
 
 import kulman
+from kulman.drawing.font import SLANTED
 from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_named, pens_for, reserved_boxes
 from kulman.drawing.page import Page, extent
 from kulman.drawing.shapes import Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
+from kulman.drawing.text import laid_out
 from kulman.drawing.titleblock import CLEAR, Stamp, _fits, _named, _placed, frame_shapes, words
 from kulman.scales.errors import InputError
 from kulman.tests.support.shapes import leaves
@@ -113,6 +115,16 @@ def test_fields_are_blank_where_nothing_is_said_and_hold_braces_as_they_are() ->
         assert [filler for filler in ("None", "TODO", "{", "}") if filler in shown] == []
     odd = written(page("A3", "uk", stamp=Stamp(designation=r"A_{1}\bar{2}")), "designation")
     assert [text.markup for text in odd] == [r"A\_\{1\}\\bar\{2\}"]
+
+
+@pytest.mark.parametrize("said", ["J. O'Brien", "J. OʼBrien", "AT-1", "К-ра ТММ_1 p1", "m = 2", "ω φ", "A–B N"])
+def test_what_a_user_says_is_words_and_no_symbol_of_a_quantity(said: str) -> None:
+    named = ("title", "designation", "organisation", "group", "student", "teacher", "document_type")
+    for norm, first, language in (("gost", True, "uk"), ("gost", False, "ru"), ("iso", True, "en")):
+        sheet = page("A3", language, norm, first, Stamp(**dict.fromkeys(named, said), language=language, identity=said))
+        runs = [run for text in written(sheet) for run in laid_out(text).runs]
+        assert [run.string for run in runs if run.face == SLANTED] == []
+        assert any(run.string in said for run in runs)
 
 
 @pytest.mark.parametrize(
