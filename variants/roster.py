@@ -18,6 +18,7 @@ from .spreadsheets.grid import (
     ORDINALS,
     Grid,
     about_kind,
+    number_said,
     quantity_part,
     several_groups,
     split_unit,
@@ -373,12 +374,18 @@ def variant_of_book(task: Task, book: str, digits: int | str | Digits = 1) -> st
     return names.get(number) or order[(number - (0 not in names)) % len(order)]
 
 
+def _numbers(task: Task) -> list[int]:
+    """Return the numbers in the name of a task; where it has none, that which its file says."""
+    return [*map(int, re.findall(r"\d+", task.id))] or [*filter(None, [task.number])]
+
+
 @dataclass(frozen=True, slots=True)
 class Schemes:
-    """The tasks of a class, the first of which is scheme 1, and how a record book chooses one of them.
+    """The tasks of a class, and how a record book chooses one of them, of which the first is scheme 1.
 
-    Without `digits` the last one is the variant; of several tasks, where a student's is not named, the last but one,
-    and the last is the scheme. Where they are not `numbered`, nothing but its id tells which one a student has.
+    In a roster the number of a task is that in its name, or of its file, else its place. Without `digits` the last one
+    is the variant; of several tasks, where a student's is not named, the last but one, and the last is the scheme.
+    Where they are not `numbered`, nothing but its name tells which one a student has.
     """
 
     tasks: tuple[Task, ...]
@@ -387,12 +394,19 @@ class Schemes:
 
     def of(self, said: str, book: str) -> Task:
         """Return the task that a roster names by id or number, else that of the record book, else the only one."""
-        digits = self.digits_of(said)
-        if not self.numbered and (said.isdigit() or (not said and SCHEME in digits.meanings)):
+        digits, told = self.digits_of(said), {task.id: task for task in self.tasks}
+        if said.strip() in told:
+            return told[said.strip()]
+        number = NUMBERED.fullmatch(number_said(said, "task").strip())
+        if number is not None and not number[1]:
+            place = int(number[2])
+            named = [task for task in told.values() if place in _numbers(task)]
+            if not named and self.numbered:
+                named = [*self.tasks[place - 1 : place]]
+            if len(named) == 1:
+                return named[0]
+        if not self.numbered and (number is not None if said else SCHEME in digits.meanings):
             raise InputError("roster-schemes")
-        for number, task in enumerate(self.tasks, 1) if said else ():
-            if said.strip() in (task.id, str(number)):
-                return task
         if said:
             raise unknown("task-other", said, self.ids)
         scheme = digits.number(SCHEME, book) if book else None

@@ -198,9 +198,9 @@ class Task:
 
     def _meant(self, said: str) -> list[str]:
         """Return the ids of the variants with the number of another id, and its letters where they say more."""
-        from .spreadsheets.grid import variant_said  # most are asked for by their own id
+        from .spreadsheets.grid import number_said  # most are asked for by their own id
 
-        if (one := NUMBERED.fullmatch(variant_said(said))) is None:
+        if (one := NUMBERED.fullmatch(number_said(said))) is None:
             return []
         letters = latin(one[1]).lower(), one[1].lower()
         found = []

@@ -461,6 +461,28 @@ def test_what_the_roster_says_goes_before_the_record_book(tmp_path: Path, tasks:
     assert "C7: no task 'scheme-03'" in str(entries[5].problem)
 
 
+@pytest.mark.parametrize("said", ["9", "09", "9,0", "№9", "схема 9", "Схема № 9", "scheme 9", "завд. 9", "task 9", "2"])
+def test_a_number_of_a_task_is_that_in_its_name_before_its_place(tmp_path: Path, said: str) -> None:
+    names = ("scheme-14-jaw-crusher", "scheme-09-shaper", "karpenko-hoist")
+    file = roster(tmp_path, "A;14;в. 2", f"B;{said};в.1", "C;26;V05", head="student;scheme;variant")
+
+    entries = read_roster(file, Schemes(tuple(map(load_task, names))), each=True).entries
+
+    assert [(str(entry.problem or ""), entry.task) for entry in entries] == [("", name) for name in names]
+    if "9" in said:  # no list of the tasks is needed for that
+        alone = roster(tmp_path, f"B;{said};1", head="student;scheme;variant")
+        assert [entry.task for entry in read_roster(alone, load_task(names[1])).entries] == [names[1]]
+
+
+def test_a_number_in_the_names_of_two_tasks_is_neither(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
+    file = roster(tmp_path, "A;2;4", head="student;scheme;variant")
+    alike = replace(tasks[0], id="exam-2")
+
+    (entry,) = read_roster(file, Schemes((alike, *tasks)), each=True).entries
+
+    assert "its tasks are: exam-2, " in str(entry.problem)
+
+
 def test_batch_and_check_give_a_student_whose_task_the_roster_names_the_same_variant(tmp_path: Path) -> None:
     rows = (f"A;71;{SCHEMES[0]};", f"B;82;{SCHEMES[0]};", f"C;53;{SCHEMES[1]};", f"D;64;{SCHEMES[1]};5")
     file, out = roster(tmp_path, *rows, head="ПІБ;залікова книжка;Завдання;варіант"), tmp_path / "out"

@@ -359,7 +359,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "kind of a cell": headers.about_kind,
     "quantity": headers.quantity_part,
     "symbol": headers.symbol,
-    "variant": headers.variant_said,
+    "variant": headers.number_said,
     "title of a group": lambda text: headers.Grid("x", ((f"Група{text}x\ny",),)).title(0),
     "recognised": lambda text: headers.recognised([[text]]),
     "number": split_number,

@@ -385,7 +385,7 @@ def batch(
     Parameters
     ----------
     task : str, PathLike, Task, or several of them
-        Of several the first is scheme 1; one may stand there more than once.
+        Of several the first is scheme 1 of a record book; one may stand there more than once.
     set, only, scales, format, norm, lettering, notation, lang
         As for `sheet`; what the roster says of a student goes before `set`.
     roster : str or PathLike

@@ -23,7 +23,7 @@ from ..crew import Advance
 from ..reader import TaskFileError, load_task, task_of
 from ..sheets import draw_case
 from ..spreadsheets.files import read_grid
-from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, symbol, variant_said
+from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, number_said, symbol
 from ..task import AnyTask, Given, LocatedError, Task
 
 MOST = 1000  # variants that are made at once
@@ -421,7 +421,7 @@ def _read_variants(file: str, task: Task) -> list[_Read]:
         if of_units or column_kind(cells[column]) == "unit":
             units = {at: cells[at] for at in table.names if cells[at] not in NOTHING}
             continue
-        name = slug(variant_said(cells[column])) if column not in table.names else ""
+        name = slug(number_said(cells[column])) if column not in table.names else ""
         found.append(_read_row(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task))
     return found
 

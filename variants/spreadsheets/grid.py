@@ -34,8 +34,11 @@ ORDINALS = frozenset(UNDERSTOOD["ordinals"])  # over the numbers of rows
 _COMMA = re.compile("[,:]")  # before a unit without brackets
 # a column of a class: a quantity, a part of its answer, a unit
 _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
-_BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
-_NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s*", re.IGNORECASE)
+_BEFORE = {
+    kind: "|".join(map(re.escape, sorted((*UNDERSTOOD["about"][kind], *more), key=len, reverse=True)))
+    for kind, more in UNDERSTOOD["numbered"].items()
+}
+_NUMBERED = {kind: re.compile(rf"\s*(?:{words})\.?\s*№?\s*", re.IGNORECASE) for kind, words in _BEFORE.items()}
 # what stands in a row below a list that sums it up: `Всього: 28`, `Разом студентів – 28`, `Total`
 _TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})\b")
 _SIGNED = re.compile(rf"(?:{'|'.join(UNDERSTOOD['signed'])})\b")
@@ -278,13 +281,13 @@ def symbol(text: str) -> str:
     return latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text))).translate(GREEK)
 
 
-def variant_said(text: str) -> str:
-    """Return the id of a variant without the words before it.
+def number_said(text: str, kind: str = "variant") -> str:
+    """Return the id of a variant, or the number of a task, without the words before it.
 
-    >>> variant_said("Варіант № 7"), variant_said("var. 12"), variant_said("А3")
-    ('7', '12', 'А3')
+    >>> number_said("Варіант № 7"), number_said("в. 12"), number_said("А3"), number_said("схема 9", "task")
+    ('7', '12', 'А3', '9')
     """
-    before = _NUMBERED.match(text)
+    before = _NUMBERED[kind].match(text)
     return text if before is None else text[before.end() :]
 
 
