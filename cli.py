@@ -8,6 +8,7 @@ import os
 import re
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -210,7 +211,8 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     from .variants.solution import solve as solve_task
 
     solution, language = solve_task(task, set=settings, **options), options["lang"] or system_language()
-    console.say_written(solution.save(*files), as_json)
+    told = replace(solution, words=solution.words.speaking(console.of_documents(options["lang"])))
+    console.say_written(told.save(*files), as_json)
     if as_json:
         console.print_json(solution.to_json())
     elif solution.reason is None:

@@ -140,6 +140,7 @@ class Solution(OfCase, Mapping[str, Quantity]):
         """Return a row for each quantity: what `to_json` says of it, in the units of the task."""
         words = self._words(language)
         items = {quantity.name: self._item(quantity.shown(words.display)) for quantity in self._tidy()}
+        items = {name: item | {"unit": words.spelled(item["unit"])} for name, item in items.items()}
         columns = tuple(dict.fromkeys(key for item in items.values() for key in item))
         rows = tuple((name, *(item.get(key) for key in columns)) for name, item in items.items())
         return Table(("name", *columns), rows, words.language, self.task.id)

@@ -211,7 +211,7 @@ def test_rows_are_written_for_every_chart_and_read_back(tmp_path: Path) -> None:
     ]
     assert {row["method"] for row in accuracy} >= {"plan", "plan-single", "newton", "differences", "chords", "hand"}
     assert all(row["seconds [s]"] == "" for row in accuracy if row["method"] == "hand")
-    assert all("place [deg]" in rows[TASK, name][0] for name in made(TASK).charts)
+    assert all("place [°]" in rows[TASK, name][0] for name in made(TASK).charts)
     assert "balance_max [%]" in rows[TASK, "depth"][0]
     sections = rows[CAM, "sections"]
     chosen = [row for row in sections if (row["drawn_by"], row["jumps"], row["quantity"]) == ("exact", NODES, S_MAX)]

@@ -624,3 +624,29 @@ def test_files_are_ukrainian_unless_a_language_is_said(
     assert len(own) >= 10
     assert {name for name, cyrillic in own.items() if cyrillic is bool(said)} == set()
     assert (status, shown.split()[:2]) == (0, ["quantity", "unit"])
+
+
+@pytest.mark.parametrize("said", ["", "ru", "en"])
+def test_tables_of_all_commands_have_numbers_and_units_of_one_language(
+    said: str, tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("KULMAN_LANG", said)
+    monkeypatch.chdir(tmp_path)
+    velocity = TASK, "-v", "3", "--only", "velocity"
+    for command in (
+        ("solve", *velocity, "-o", "solved.csv"),
+        ("sweep", *velocity, "--positions", "3", "-o", "swept.csv"),
+        ("variants", *velocity, "--quantities", "V_B", "-o", "key.csv"),
+        ("chart", TASK, "-v", "3", "--chart", "stability", "--positions", "4", "-o", "chart.csv"),
+        ("solve", *velocity, "-o", "solved.html"),
+    ):
+        assert run(*command)[::2] == (0, ""), command
+
+    texts = {file.name: file.read_text("utf-8-sig") for file in tmp_path.iterdir()}
+
+    decimal, between, metres = (r"\d\.\d", ",", "m/s") if said == "en" else (r"\d,\d", ";", "м/с")
+    assert {name for name, text in texts.items() if not re.search(decimal, text)} == set()
+    assert {name for name, text in texts.items() if between not in text.splitlines()[0]} == {"solved.html"}
+    assert {name for name, text in texts.items() if metres not in text} == {"chart.csv"}
+    assert f"[{'mm' if said == 'en' else 'мм'}]" in texts["chart.csv"]
+    assert texts["chart.csv"].startswith("place [°]")

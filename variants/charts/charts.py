@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import platform
+import re
 import textwrap
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -108,7 +109,8 @@ class Chart(ABC, Generic[Found]):
     def data(self, words: Words) -> Table:
         """Return all its rows."""
         columns, *rows = map(tuple, self._rows())
-        return Table(tuple(map(str, columns)), tuple(rows), words.language, self.scene.title(self.heading))
+        heads = (re.sub(r"(?<= \[).+(?=]$)", lambda of: words.spelled(of[0]), str(head)) for head in columns)
+        return Table((*heads,), tuple(rows), words.language, self.scene.title(self.heading))
 
     @abstractmethod
     def _data(self) -> dict[str, Any]:
