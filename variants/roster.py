@@ -195,6 +195,12 @@ class _Columns:
     of: Task | None
     groups: Mapping[int, str]
 
+    @property
+    def by_name(self) -> bool:
+        """Whether a row names the task that is asked for by its number: then other numbers are other tasks."""
+        said = (self.said(row).get("task", "") for row in self.groups) if "task" in self.about else ()
+        return self.of is not None and any(_number(text) in _numbers(self.of) for text in said)
+
     def said(self, row: int) -> dict[str, str]:
         """Return what a row says of the student, the group where it is only said above it, too."""
         said = {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
@@ -208,7 +214,7 @@ class _Columns:
             with _located(self, row, "task"):
                 found = self.schemes.of(name, book).id
         except InputError as error:  # a task of another class; or a wrong record book, which may be anybody's
-            if error.key == "roster-schemes":
+            if error.key == "roster-schemes" and not (name and self.by_name):
                 raise
             found = name
         return found if self.of and found != self.of.id else ""
@@ -374,6 +380,12 @@ def variant_of_book(task: Task, book: str, digits: int | str | Digits = 1) -> st
     return names.get(number) or order[(number - (0 not in names)) % len(order)]
 
 
+def _number(said: str) -> int | None:
+    """Return the number by which a roster names a task, `9`, `№ 9`, `схема 9`; None where it is no number."""
+    found = NUMBERED.fullmatch(number_said(said, "task").strip())
+    return int(found[2]) if found is not None and not found[1] else None
+
+
 def _numbers(task: Task) -> list[int]:
     """Return the numbers in the name of a task; where it has none, that which its file says."""
     return [*map(int, re.findall(r"\d+", task.id))] or [*filter(None, [task.number])]
@@ -397,15 +409,14 @@ class Schemes:
         digits, told = self.digits_of(said), {task.id: task for task in self.tasks}
         if said.strip() in told:
             return told[said.strip()]
-        number = NUMBERED.fullmatch(number_said(said, "task").strip())
-        if number is not None and not number[1]:
-            place = int(number[2])
+        place = _number(said)
+        if place is not None:
             named = [task for task in told.values() if place in _numbers(task)]
             if not named and self.numbered:
                 named = [*self.tasks[place - 1 : place]]
             if len(named) == 1:
                 return named[0]
-        if not self.numbered and (number is not None if said else SCHEME in digits.meanings):
+        if not self.numbered and (place is not None if said else SCHEME in digits.meanings):
             raise InputError("roster-schemes")
         if said:
             raise unknown("task-other", said, self.ids)

@@ -470,8 +470,12 @@ def test_a_number_of_a_task_is_that_in_its_name_before_its_place(tmp_path: Path,
 
     assert [(str(entry.problem or ""), entry.task) for entry in entries] == [("", name) for name in names]
     if "9" in said:  # no list of the tasks is needed for that
-        alone = roster(tmp_path, f"B;{said};1", head="student;scheme;variant")
+        (tmp_path / "alone").mkdir()
+        alone = roster(tmp_path / "alone", f"B;{said};1", head="student;scheme;variant")
         assert [entry.task for entry in read_roster(alone, load_task(names[1])).entries] == [names[1]]
+        of_class = read_roster(file, load_task(names[1]))
+        assert [entry.who.student for entry in of_class.entries] == ["B"]
+        assert of_class.elsewhere == ("14", "26")
 
 
 def test_a_number_in_the_names_of_two_tasks_is_neither(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
