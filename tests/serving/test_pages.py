@@ -36,6 +36,10 @@ def unpacked(data: bytes) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
+def archived(client: TestClient, page: str) -> bytes:
+    return client.get(f"{page}/{page.rpartition('/')[2]}.zip").content
+
+
 def finished(client: TestClient, begun: Any) -> str:
     """Wait until the work for a class is done; return the address of its page."""
     assert begun.status_code == 303, begun.text
@@ -265,9 +269,21 @@ def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: 
     (tmp_path / "roster.csv").write_bytes(ROSTER)
     kulman.batch(TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=kinds, merge=True, teacher="Г. Вовк")
 
-    archive = client.get(f"{page}/{page.rpartition('/')[2]}.zip")
-    assert unpacked(archive.content) == files(tmp_path / "out")
+    assert unpacked(archived(client, page)) == files(tmp_path / "out")
     assert client.post("/class", data=form).status_code == 400
+
+
+def test_what_is_said_of_a_list_of_students_has_the_name_of_the_file_that_was_sent(client: TestClient) -> None:
+    listed = b"student;variant;zodiac\nA;3;x\nB;77;y\n"
+    form = {"tasks": TASK, "kinds": ["card"]}
+
+    page = finished(client, client.post("/class?lang=en", data=form, files={"roster": ("моя група.csv", listed)}))
+
+    told = unescape(client.get(page).text)
+    assert re.findall(r"моя група\.csv: (B3|columns)", told) == ["columns", "B3"]
+    manifest = unpacked(archived(client, page))["manifest.csv"].decode()
+    assert "моя група.csv: B3" in manifest
+    assert "001-моя" not in told + manifest
 
 
 def test_a_class_is_marked_as_the_command_marks_it(client: TestClient, tmp_path: Path) -> None:
@@ -291,3 +307,26 @@ def test_a_class_is_marked_as_the_command_marks_it(client: TestClient, tmp_path:
     assert unpacked(client.get(f"{again}/{again.rpartition('/')[2]}.zip").content)["moodle.csv"] == made["moodle.csv"]
     assert "letter.txt" in client.get(again).text
     assert "І. Петренко" in client.get(page).text
+
+
+def test_the_forms_of_a_class_say_for_which_task_they_are_and_have_their_names(client: TestClient) -> None:
+    forms = list[tuple[str, tuple[str, bytes]]]()
+    for name, task in (("О'Коннор <1>.csv", TASK), ("b c.csv", TASK), ("інше.csv", "scheme-09-shaper")):
+        text = f"task,{task}\nvariant,3\n\nquantity,value,unit\nV_B,5.6,m/s\nV_A,wide,m/s\n"
+        forms.append(("forms", (name, text.encode())))
+    broken = ("forms", ("broken one.xlsx", b"PK"))
+    roster = ("roster", ("моя група.csv", f"{ROSTER.decode()}Х;АТ-301;77\n".encode()))
+    assert 'value="" selected' in client.get("/marks").text
+
+    page = finished(client, client.post("/marks", data={"tasks": ""}, files=[*forms, broken, roster]))
+    nothing = finished(client, client.post("/marks", data={"tasks": ""}, files=[broken]))
+
+    told = unescape(client.get(page).text)
+    assert "marked: 2" in told
+    assert told.count("these answers are for the task") == 1
+    assert "моя група.csv: C4" in told
+    assert told.count("broken one.xlsx") == 2  # the name of the student, and why it cannot be read
+    texts = [told, *(data.decode("utf-8", "replace") for data in unpacked(archived(client, page)).values())]
+    assert [text for text in texts if "forms/" in text] == []
+    assert any("О'Коннор <1>.csv" in unescape(text) and "О'Коннор <1>" not in text for text in texts)
+    assert "choose the task" in client.get(nothing).text

@@ -94,7 +94,8 @@ class Questions:
         """Begin to mark a class, with what has been told, or to look for what is not sure; lead to how far it is."""
         said = sitting.told if told else None
         title, asked = door.said["marks.title"], sitting.name
-        job = self.desk.begin(title, making.marked_class, door.language, sitting.handed, said, asked)
+        handed = sitting.handed
+        job = self.desk.begin(title, making.marked_class, door.language, handed.sent, handed, said, asked)
         self.desk.sittings.keep(job.name, replace(sitting, name=job.name))
         return RedirectResponse(door.link(f"/job/{job.name}"), 303)
 

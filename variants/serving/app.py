@@ -39,7 +39,7 @@ from .answering import Questions, marked_alone
 from .asking import Sitting
 from .desk import Desk, Served
 from .jobs import KEPT, BusyError, CrashError
-from .making import Asked, Handed, Job, Upload
+from .making import Asked, Handed, Job, Upload, as_sent
 from .pages import Door, Place
 from .safety import STUDENT, Gate, Patient, doors_for, read_passwords
 
@@ -197,13 +197,13 @@ class _Answers:
         preset = filled.get("preset", "normal") if filled.get("preset") in HANDS else "normal"
         at = pages.settled(self.place(request), await self.shown(request))
         files, back = form.files.get("drawing", ()), door.link(f"{at.path}/check", at.query)
+        handed = Handed(of, tuple(files), {"preset": preset, "own": own}, alone=True)
         try:
             if files:
-                handed = Handed(of, tuple(files), {"preset": preset, "own": own}, alone=True)
                 return await marked_alone(self.desk, door, Sitting(secrets.token_hex(12), handed, back))
             report = await self.desk.crew.do(making.answered, of, cells, preset, own, like=(of.task, of.variant))
         except KulmanError as error:
-            return await self.form_page(request, filled, error.text(door.language))
+            return await self.form_page(request, filled, as_sent(error.text(door.language), files))
         name, report = secrets.token_hex(12), pages.framed(report, (back, f"← {door.said['form.again']}"))
         self.desk.made.keep(name, Served("report.html", report.encode("utf-8", "replace")))
         return RedirectResponse(door.link(f"/result/{name}"), 303)
@@ -266,7 +266,7 @@ class _Answers:
         how: dict[str, Any] = {"kinds": kinds, "merge": "merge" in form.texts, **said}
         how |= {"scan": "scan" in form.texts and "handout" in kinds, **form.said(digits=None, format=SIZES)}
         title = door.said["class.title"]
-        job = self.desk.begin(title, making.drawn_class, door.language, tasks, roster, how)
+        job = self.desk.begin(title, making.drawn_class, door.language, [roster], tasks, roster, how)
         return RedirectResponse(door.link(f"/job/{job.name}"), 303)
 
     async def marks_page(self, request: Request) -> Response:
@@ -277,10 +277,11 @@ class _Answers:
         door, form = _teacher(self.desk.door(request)), await _Form.of(request)
         tasks, roster = self.of_class(door, form), form.file("roster")
         forms = form.files.get("forms", ())
-        if not tasks or not forms:
+        if not forms:
             return HTMLResponse(pages.marks(door, self.listed(door), door.said["marks.missing"]), 400)
         how = {"own": "own" in form.texts, **form.said(digits=None, preset=HANDS)}
-        handed = Handed(tasks[0], tuple(forms), how, roster, form.file("rubric"))
+        of = tasks[0] if tasks else Asked("", language=door.language)
+        handed = Handed(of, tuple(forms), how, roster, form.file("rubric"))
         return self.questions.begun(door, Sitting("", handed, door.link("/marks")), told=False)
 
     def found_job(self, request: Request) -> Job:

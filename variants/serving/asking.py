@@ -7,7 +7,6 @@ first. Where a vector ends is chosen by links, so that no script is needed; with
 from __future__ import annotations
 
 import cmath
-import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from html import escape
@@ -16,7 +15,7 @@ from pathlib import Path
 from ..marking.reading import Ends
 from ..photos.asking import ENTRY, OUT, Asking, EndAsk, PageAsk, Told
 from ..photos.pictures import PICTURES
-from .making import Handed
+from .making import Handed, as_sent
 from .pages import Door, Html, note, page, scripted, tag, typed
 from .pages import field as labelled
 
@@ -25,7 +24,6 @@ FEWEST = 55.0  # mm of a side that is shown
 POINT = 0.009  # part of the picture that a spot has
 HEAD, PART, WING = 4.0, 0.5, cmath.rect(1.0, 0.2)  # spots, or part of its vector, of an arrowhead; its half angle
 RING, REACH = 1.8, 2.2  # spots of the ring at a tail; that can be pressed
-_OURS = re.compile(r"forms/[0-9]{3}-[^/\s:;,]*")  # names of files in the folder of a process
 PASSED = "?"  # what is answered where nothing can be told
 Box = tuple[float, float, float, float]
 
@@ -100,9 +98,7 @@ class Sitting:
 
     def shown(self, text: str) -> str:
         """Return a text with the names of files as they have come."""
-        return _OURS.sub(
-            lambda found: self.handed.files[number].name if (number := self.sent(found[0])) >= 0 else found[0], text
-        )
+        return as_sent(text, self.handed.sent)
 
 
 def size_of(sitting: Sitting) -> int:

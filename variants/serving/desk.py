@@ -7,7 +7,8 @@ import os
 import secrets
 import shutil
 import sys
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from typing import Any
 
@@ -17,7 +18,7 @@ from ...scales.errors import LANGUAGES, KulmanError
 from ...scales.packaged import packaged
 from .asking import Sitting, size_of
 from .jobs import KEPT, BusyError, CrashError, Crew, Home, Store
-from .making import KINDS, Job
+from .making import KINDS, Job, Upload, as_sent
 from .pages import Door
 from .safety import Doors
 
@@ -98,21 +99,22 @@ class Desk:
             task.add_done_callback(lambda done: self._making.pop(key, None))
         return self.made.keep(key, await asyncio.shield(self._making[key]))
 
-    def begin(self, title: str, make: Any, language: str, *args: Any) -> Job:
-        """Begin the work for a class; what is to be told of it is in a language."""
+    def begin(self, title: str, make: Any, language: str, sent: Sequence[Upload], *args: Any) -> Job:
+        """Begin the work for a class; what is to be told of it, and of the files that were sent, is in a language."""
         job = Job(secrets.token_hex(12), title)
         self.jobs.keep(job.name, job)
-        task = asyncio.create_task(self._class(job, make, (*args, f"{job.name}.zip", self.cores), language))
+        task = asyncio.create_task(self._class(job, make, (*args, f"{job.name}.zip", self.cores), language, sent))
         self._running.add(task)
         task.add_done_callback(self._running.discard)
         return job
 
-    async def _class(self, job: Job, make: Any, args: tuple[Any, ...], language: str) -> None:
+    async def _class(self, job: Job, make: Any, args: tuple[Any, ...], language: str, sent: Sequence[Upload]) -> None:
         words = packaged(__package__, "texts", language)
         try:
-            job.outcome = await self.classes.do(make, *args, advance=job.advance)
+            done = await self.classes.do(make, *args, advance=job.advance)
+            job.outcome = replace(done, lines=tuple(as_sent(line, sent) for line in done.lines))
         except KulmanError as error:
-            job.problem = error.text(language)
+            job.problem = as_sent(error.text(language), sent)
         except BusyError:
             job.problem = words["busy"]
         except CrashError as crash:

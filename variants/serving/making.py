@@ -5,11 +5,14 @@ They work in an empty folder, where what is uploaded is written under names of o
 
 from __future__ import annotations
 
+import re
 import shutil
 import zipfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -45,13 +48,15 @@ from ..sheets import BESIDE, BLOCK, Sheet, draw_case, handout, sheet
 from ..shelf import bundled
 from ..solution import solve
 from ..spreadsheets.files import read_grid
+from ..spreadsheets.grid import LOOKED_AT, about_kind
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..sweeps.sweeps import sweep
 from ..tables import csv_table
 from ..task import LocatedError, Task, decoded
 from .jobs import KEPT as KEEP
 
-OWN = "task.toml"  # in the folder of the process
+OWN, FORMS = "task.toml", Path("forms")  # in the folder of the process
+_OURS = re.compile(rf"\b{FORMS}/([0-9]{{3,}})-[\w-]*(?:\.\w+)?")
 ZIP = ".zip"
 LETTERS = ("format", "notation")
 HOW = (*LETTERS, "norm")
@@ -124,8 +129,11 @@ class Upload:
     name: str
     data: bytes
 
-    def put(self, stem: str, known: Sequence[str]) -> str:
-        """Write it under a name of ours and return that; one of another kind than those known is refused."""
+    def put(self, number: int, known: Sequence[str]) -> str:
+        """Write it under a name of ours and return that; one of another kind than those known is refused.
+
+        It is so with its `number` of the files that were sent, from 1, by which `as_sent` finds the name again.
+        """
         suffix = Path(self.name).suffix.lower()
         if suffix not in known:
             raise InputError(
@@ -133,8 +141,20 @@ class Upload:
                 file=quote(self.name, SHOWN),
                 known=", ".join(known),
             )
-        Path(stem + suffix).write_bytes(self.data)
-        return stem + suffix
+        FORMS.mkdir(exist_ok=True)
+        file = FORMS / f"{number:03d}-{slug(Path(self.name).stem)}{suffix}"
+        file.write_bytes(self.data)
+        return file.as_posix()
+
+
+def as_sent(text: str, sent: Sequence[Upload], written: Callable[[str], str] = str) -> str:
+    """Return a text with the names of files as they were sent, as its kind has them `written`, in the place of ours."""
+
+    def name(ours: re.Match[str]) -> str:
+        number = int(ours[1])
+        return written(sent[number - 1].name) if 0 < number <= len(sent) else ours[0]
+
+    return _OURS.sub(name, text)
 
 
 def _settled(asked: Asked, task: Task) -> tuple[tuple[str, str], ...]:
@@ -226,6 +246,14 @@ def _zipped(files: Sequence[Path], archive: Path, folder: Path = Path()) -> Path
         for file in files:
             packed.writestr(zipfile.ZipInfo(file.relative_to(folder).as_posix()), file.read_bytes(), packed.compression)
     return archive
+
+
+def _name_as_sent(files: Iterable[Path], sent: Sequence[Upload]) -> None:
+    """Let reports and tables speak of the files that were sent by their names."""
+    kinds: Mapping[str, Callable[[str], str]] = {".html": escape, ".txt": str, ".csv": str}
+    for file in files:
+        if written := kinds.get(file.suffix):
+            file.write_bytes(as_sent(file.read_bytes().decode("utf-8"), sent, written).encode("utf-8"))
 
 
 def shown(advance: Advance, asked: Asked, answers: bool) -> Shown:
@@ -337,6 +365,13 @@ def _about_quantity(problem: KulmanError, symbols: Mapping[str, str]) -> KulmanE
     return LocatedError(Written(symbols[name]), problem.cause) if name in symbols else problem.cause
 
 
+def _tasks_named(form: Upload) -> Iterator[str]:
+    """Go through the bundled tasks that a form names in its head."""
+    with suppress(InputError):  # a drawing; or what is wrong with it is told where it is read
+        for row in read_grid(form.put(0, TABLES)).rows[:LOOKED_AT]:
+            yield from (name for name in row[1:2] if about_kind(row[0]) == "task" and name in bundled())
+
+
 @dataclass(frozen=True, slots=True)
 class Handed:
     """What has been handed in, as it came: by a student who is `alone`, or a class; `how` it is to be marked."""
@@ -348,19 +383,33 @@ class Handed:
     rubric: Upload | None = None
     alone: bool = False
 
+    @property
+    def sent(self) -> tuple[Upload, ...]:
+        """All files that have come."""
+        return *self.files, *filter(None, (self.roster, self.rubric))
+
+    @property
+    def of(self) -> Asked:
+        """What is asked: where no task is chosen that which most forms name. Raises InputError: none names one."""
+        if self.asked.task or self.asked.own:
+            return self.asked
+        named = Counter(name for one in self.files for name in _tasks_named(one))
+        if not named:
+            raise InputError("marks-no-task")
+        return replace(self.asked, task=named.most_common(1)[0][0])
+
     def read(self, told: Told) -> _Read:
         """Read it, in the folder of the process, with what has been answered to questions."""
-        asked, notes = self.asked, list[KulmanError]()
-        listed = None if self.roster is None else self.roster.put("roster", TABLES)
-        weights = None if self.rubric is None else self.rubric.put("rubric", (".toml",))
+        asked, notes, beside = self.of, list[KulmanError](), len(self.files)
+        listed = None if self.roster is None else self.roster.put(beside + 1, TABLES)
+        weights = None if self.rubric is None else self.rubric.put(len(self.sent), (".toml",))
         task = asked.load()
         usual = _request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
         ready = check(task, **{**usual, "lang": asked.language}, roster=listed, rubric=weights, **self.how)
-        Path("forms").mkdir()
         names = list[str]()
         for n, one in enumerate(self.files, 1):
             try:
-                names.append(one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", ANSWERS))
+                names.append(one.put(n, ANSWERS))
             except InputError as error:  # the others are read all the same
                 if n == len(self.files) and not names:
                     raise
@@ -399,7 +448,7 @@ def answered_by_files(advance: Advance, handed: Handed, told: Told) -> tuple[str
             one = len(paths) == 1
             returned.append(paths[0].read_bytes() if one else _zipped(paths, Path(f"marked{ZIP}")).read_bytes())
     asking = Asking(tuple(read.asks), tuple(ends), pictures, tuple(read.notes))
-    return report_html(report), asking, tuple(returned)
+    return as_sent(report_html(report), handed.sent, escape), asking, tuple(returned)
 
 
 @dataclass(frozen=True, slots=True)
@@ -438,12 +487,14 @@ def drawn_class(
 ) -> _Done:
     """Draw the sheets of a class as `batch` does, into an archive of what it writes."""
     language, folder = tasks[0].language, Path("class")
-    file = roster.put("roster", TABLES)
+    file = roster.put(1, TABLES)
     found = batch([one.load() for one in tasks], file, folder, lang=language, jobs=jobs, advance=advance, **how)
     files = sorted(path for path in folder.rglob("[!.]*") if path.is_file())
+    _name_as_sent(files, [roster])
     _zipped(files, Path("..") / KEEP / archive, folder)
     told = (*(warning.text(language) for warning in found.warnings), *found.told)
-    return _Done(archive, told)
+    named = (line.replace(file, roster.name).replace(Path(file).name, roster.name) for line in told)
+    return _Done(archive, (*named,))
 
 
 @dataclass(frozen=True, slots=True)
@@ -491,7 +542,9 @@ def marked_class(advance: Advance, handed: Handed, told: Told | None, asked: str
     asking = Asking(tuple(read.asks)) if told is not None else _asked_of_class(read, advance, jobs)
     if asking.pages or asking.ends:
         return _Done("", (), asking=asking)
-    lines = [warning.text(language) for warning in (*ready.warnings, *read.notes)]
+    unread = [one.unread for one in found]  # of which a line of its student tells
+    lines = [warning.text(language) for warning in (*ready.warnings, *(one for one in read.notes if one not in unread))]
+    found = [replace(one, source=as_sent(one.source, handed.files)) for one in found]
     results = ready.mark_all(found, out, advance, jobs)
     page, moodle, name = out / f"class{PAGE}", out / "moodle.csv", f"sheets{RETURNED}"
     write_tables(ready, results, found, [page, out / "gradebook.xlsx"], moodle)
@@ -500,6 +553,7 @@ def marked_class(advance: Advance, handed: Handed, told: Told | None, asked: str
     if returned:
         (out / name).write_bytes(stacked(returned))
     files = sorted(out.glob("[!.]*"))
+    _name_as_sent(files, handed.sent)
     _zipped(files, kept / archive, out)
     if not asked:
         shutil.rmtree(photographs, ignore_errors=True)  # nothing was asked of them
@@ -509,7 +563,7 @@ def marked_class(advance: Advance, handed: Handed, told: Told | None, asked: str
 def students(advance: Advance, handed: Handed) -> list[str]:
     """Return the names of the students of a roster, in its order."""
     assert handed.roster is not None
-    entries = read_roster(handed.roster.put("roster", TABLES), handed.asked.load()).entries
+    entries = read_roster(handed.roster.put(1, TABLES), handed.of.load()).entries
     return [entry.who.student or entry.who.book or entry.who.number for entry in entries]
 
 

@@ -536,12 +536,13 @@ def class_(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> s
 def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> str:
     """Return the page on which what a class has handed in is uploaded."""
     said, known = door.said, f"{TABLES},{DRAWINGS},{PHOTOS}"
+    choices = [("", said["marks.named"]), *((id_, f"{title} ({id_})") for id_, title in tasks)]
     return _of_class(
         door,
         "marks",
         problem,
         "marks.mark",
-        field(said["class.task"], _chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
+        field(said["class.task"], _chosen("tasks", choices, ""), "tasks"),
         _file(door, "own_task", "class.own"),
         _file(door, "forms", "marks.forms", known, several=True, required=True, hint="marks.several"),
         _file(door, "roster", "marks.roster", TABLES),
