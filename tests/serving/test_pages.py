@@ -273,6 +273,23 @@ def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: 
     assert client.post("/class", data=form).status_code == 400
 
 
+@pytest.mark.parametrize("said", ["position,velocity", "механізм, швидкості"])
+def test_plans_of_a_class_can_be_chosen(client: TestClient, tmp_path: Path, said: str) -> None:
+    form = {"tasks": TASK, "kinds": ["handout"], "merge": "1", "only": said}
+    page = finished(client, client.post("/class?lang=uk", data=form, files={"roster": ("y.csv", ROSTER)}))
+    (tmp_path / "roster.csv").write_bytes(ROSTER)
+    kulman.batch(
+        TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=["handout"], merge=True, only="position,velocity"
+    )
+    answers = ("forms", ("a.csv", "student;variant;V_A, m/s\nІ. Петренко;3;5,86\n".encode()))
+    unknown = finished(
+        client, client.post("/marks?lang=en", data={"tasks": TASK, "only": f"{said}, spin"}, files=[answers])
+    )
+
+    assert unpacked(archived(client, page)) == files(tmp_path / "out")
+    assert "known are: structure, position" in client.get(unknown).text
+
+
 def test_what_is_said_of_a_list_of_students_has_the_name_of_the_file_that_was_sent(client: TestClient) -> None:
     listed = b"student;variant;zodiac\nA;3;x\nB;77;y\n"
     form = {"tasks": TASK, "kinds": ["card"]}

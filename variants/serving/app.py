@@ -264,7 +264,7 @@ class _Answers:
             return HTMLResponse(pages.class_(door, self.listed(door), door.said["class.missing"]), 400)
         said = form.said(**dict.fromkeys(BLOCK))
         how: dict[str, Any] = {"kinds": kinds, "merge": "merge" in form.texts, **said}
-        how |= {"scan": "scan" in form.texts and "handout" in kinds, **form.said(digits=None, format=SIZES)}
+        how |= {"scan": "scan" in form.texts and "handout" in kinds, **form.said(only=None, digits=None, format=SIZES)}
         title = door.said["class.title"]
         job = self.desk.begin(title, making.drawn_class, door.language, [roster], tasks, roster, how)
         return RedirectResponse(door.link(f"/job/{job.name}"), 303)
@@ -279,7 +279,7 @@ class _Answers:
         forms = form.files.get("forms", ())
         if not forms:
             return HTMLResponse(pages.marks(door, self.listed(door), door.said["marks.missing"]), 400)
-        how = {"own": "own" in form.texts, **form.said(digits=None, preset=HANDS)}
+        how = {"own": "own" in form.texts, **form.said(only=None, digits=None, preset=HANDS)}
         of = tasks[0] if tasks else Asked("", language=door.language)
         handed = Handed(of, tuple(forms), how, roster, form.file("rubric"))
         return self.questions.begun(door, Sitting("", handed, door.link("/marks")), told=False)

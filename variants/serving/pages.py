@@ -500,8 +500,11 @@ def _of_class(door: Door, at: str, problem: str, button: str, *fields: Html | No
     """Return the page on which the sheets of a class or its marks are asked for: a form that is sent with files."""
     said = door.said
     digits = field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"])
+    plans = field(said["class.plans"], typed("only"), "only", said["class.plans_hint"])
     send = tag("button", said[button], type="submit", class_="main")
-    asked = tag("form", *fields, digits, send, method="post", enctype="multipart/form-data", action=door.link(f"/{at}"))
+    asked = tag(
+        "form", *fields, plans, digits, send, method="post", enctype="multipart/form-data", action=door.link(f"/{at}")
+    )
     warned = note(problem, kind="problem") if problem else None
     return page(door, said[f"{at}.title"], warned, tag("p", said[f"{at}.about"]), asked, at=f"/{at}")
 
