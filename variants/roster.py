@@ -108,19 +108,26 @@ class Roster:
         return None
 
 
-def shared_by_mistake(students: Iterable[tuple[Who, object]], possible: int) -> Iterator[InputError]:
-    """Go through what several students of a class have though each should have an own one.
-
-    That is a record book, and the work: what `students` come with, a variant with all its data. Where there are fewer
-    `possible` variants than students they must share them.
-    """
-    books, works = dict[str, list[Who]](), dict[object, list[Who]]()
-    for who, work in students:
-        books.setdefault(who.book, []).append(who)
-        works.setdefault(work, []).append(who)
+def shared_books(students: Iterable[tuple[Who, str]]) -> Iterator[InputError]:
+    """Go through the record books that several students have; one may have a row for each of several tasks."""
+    books = dict[str, list[tuple[Who, str]]]()
+    for who, task in students:
+        books.setdefault(who.book, []).append((who, task))
     for book, several in books.items():
-        if book and len(several) > 1:
-            yield InputError("roster-book-twice", text=quote(book), students=named(several))
+        alone = len({_folded(who.student) for who, _ in several}) == 1
+        if book and len(several) > (len({task for _, task in several}) if alone else 1):
+            yield InputError("roster-book-twice", text=quote(book), students=named(who for who, _ in several))
+
+
+def shared_by_mistake(students: Iterable[tuple[Who, object]], possible: int) -> Iterator[InputError]:
+    """Go through the works that several students of a class have though each should have an own one.
+
+    That is what `students` come with, a variant with all its data. Where there are fewer `possible` variants than
+    students they must share them.
+    """
+    works = dict[object, list[Who]]()
+    for who, work in students:
+        works.setdefault(work, []).append(who)
     if len([who for several in works.values() for who in several]) <= possible:
         for work, several in works.items():
             if work and len(several) > 1:

@@ -500,15 +500,20 @@ def test_batch_and_check_give_a_student_whose_task_the_roster_names_the_same_var
         assert [result.mark for result in results] == [100.0, 100.0]
 
 
-def test_of_several_tasks_a_book_or_a_variant_of_two_students_of_one_is_told(tmp_path: Path) -> None:
-    works = ("A", 71, 0), ("A", 71, 1), ("B", 52, 1), ("C", 62, 1), ("D", 71, 1)
+def test_what_two_students_have_alike_and_rows_without_a_name_are_told(tmp_path: Path) -> None:
+    own = ("A", 71, 0), ("a.", 71, 1), ("B", 52, 1), ("C", 62, 1), ("", 87, 0)
+    works = *own, ("D", 83, 1), ("E", 84, 1), ("E", 84, 1), ("F", 83, 0)
     rows = [f"{who};{book};{SCHEMES[scheme]}" for who, book, scheme in works]
     file = roster(tmp_path, *rows, head="ПІБ;залікова книжка;Завдання")
 
     done = batch(SCHEMES[:2], file, tmp_path / "out", kinds=["svg"], only="structure", jobs=1, lang="en")
 
-    said = [(error.key, str(error.data["text"])) for error in done.warnings]
-    assert said == [("roster-book-twice", "71"), ("roster-variant-shared", "1"), ("roster-variant-shared", "2")]
+    said = [(error.key, str(error.data.get("text", error.data.get("n")))) for error in done.warnings]
+    assert said == [
+        *(("roster-book-twice", book) for book in ("83", "84")),
+        *(("roster-variant-shared", f"{variant} ({SCHEMES[1]})") for variant in "24"),
+        ("roster-nameless", "1"),
+    ]
 
 
 def test_data_of_ones_own_are_those_of_ones_own_task(tmp_path: Path, tasks: tuple[Task, ...]) -> None:

@@ -37,7 +37,7 @@ from ..crew import Advance, Begin, Done, Journal, digest_of, on_cluster, remove_
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
-from ..roster import WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_by_mistake
+from ..roster import WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_books, shared_by_mistake
 from ..sheets import BLOCK, PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, save_form
@@ -447,11 +447,16 @@ def batch(
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     groups = of_several_groups(student.entry.who for student in students)
-    doubled = list[InputError]()
+    doubled = [*shared_books((student.entry.who, student.entry.task) for student in students)]
     for one in once:  # a student may have a row for each of several tasks
         its = [student for student in students if len(once) == 1 or student.entry.task == one.id]
-        works = ((student.entry.who, "" if student.entry.settings else student.data[1]) for student in its)
+        of = f" ({one.id})" if len(once) > 1 else ""
+        alike_in = (student.entry.variant if not student.entry.settings else "" for student in its)
+        works = zip((student.entry.who for student in its), (work and f"{work}{of}" for work in alike_in), strict=True)
         doubled += shared_by_mistake(works, len(one.variants))
+    nameless = sum(not student.entry.who.student for student in students)
+    if 0 < nameless < len(students):  # an empty roster is drawn without names
+        doubled.append(InputError("roster-nameless", n=nameless))
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
     removed = (InputError("batch-gone", n=len(gone), file=quote(gone[0], SHOWN)),) if gone else ()
     done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice, *removed))

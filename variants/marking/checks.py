@@ -25,7 +25,17 @@ from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
-from ..roster import Digits, Entry, Schemes, Who, collated, of_several_groups, read_roster, shared_by_mistake
+from ..roster import (
+    Digits,
+    Entry,
+    Schemes,
+    Who,
+    collated,
+    of_several_groups,
+    read_roster,
+    shared_books,
+    shared_by_mistake,
+)
 from ..sheets import sheet_id
 from ..shelf import bundled
 from ..spreadsheets.grid import SUFFIXES as TABLES
@@ -147,12 +157,13 @@ class Check(Terms):
         """What a teacher should know of the roster: wrong rows, what several students have, who is left out."""
         entries = self.roster.entries if self.roster else ()
         wrong = (entry.problem for entry in entries if entry.problem is not None)
+        books = shared_books((entry.who, entry.task) for entry in entries)
         students = ((entry.who, "" if entry.settings else entry.variant) for entry in entries)
         possible = 0 if self.request.variant else len(self.request.task.variants)
         groups = of_several_groups(entry.who for entry in entries)
         others = [task for task in (self.roster.elsewhere if self.roster else ()) if task not in bundled()]
         named = [InputError("roster-elsewhere", tasks=quote(", ".join(others), SHOWN))] if others else []
-        return (*wrong, *shared_by_mistake(students, possible), *groups, *named)
+        return (*wrong, *books, *shared_by_mistake(students, possible), *groups, *named)
 
     def ordered(self, answers: Iterable[Answers]) -> list[Answers]:
         """Return answers in the order of the roster; those of strangers, and all without one, by their names."""
