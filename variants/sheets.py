@@ -8,7 +8,7 @@ import json
 import math
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
@@ -24,6 +24,9 @@ from ..drawing.text import lettered
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import WRITERS, Files, page_files, save_all
+from ..plans.names import role
+from ..plans.quantities import measured
+from ..scales.choices import SIZES
 from ..scales.errors import InputError, KulmanError
 from ..scales.names import latin, of_its_kinds, of_kind, seen, unknown
 from ..scales.numbers import SHOWN, quote
@@ -55,6 +58,7 @@ MOST_DRAWN = 36  # positions whose plans one sheet shows
 _NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 CODED, DIGEST = "KULMAN", 8  # what a QR code begins with, how many digits tell what is printed
 ALL = 1000  # steps: no plan has more
+TINY = 4.0  # mm of a link on a blank, from which on nobody can draw surely
 BESIDE = PAGE, CONSTRUCTION = ".html", ".ggb"  # a page on which plans move, a construction for GeoGebra
 SUFFIXES = (*WRITERS, *BESIDE)
 ABOUT_PAPER = {
@@ -465,7 +469,16 @@ def begun_of_case(case: Case, drawing: Drawn, steps: int = 0) -> Sheet:
     begun = done(steps)
     stepless = steps > 0 and begun == done(0) == done(ALL)  # the first ones may set a plan up, as on the blank
     idle = (InputError("handout-stepless", task=quote(case.task.id), steps=steps),) if stepless else ()
-    return replace(drawn, pages=tuple(map(marked, begun)), warnings=(*drawn.warnings, *idle))
+    return replace(drawn, pages=tuple(map(marked, begun)), warnings=(*drawn.warnings, *_tiny(case, drawn), *idle))
+
+
+def _tiny(case: Case, drawn: Sheet) -> Iterator[InputError]:
+    """Tell of the shortest link where half a millimetre, by which a hand errs, is much of it on a blank."""
+    found = measured(case.solved.quantities, case.solved.shown_on, drawn.scales).items() if drawn.scales else ()
+    links = ((one.mm, name) for name, one in found if name in case.task.givens and role(name).kind == "l" and one.mm)
+    least, name = min(links, default=(TINY, ""))
+    if least < TINY and drawn.format != SIZES[-1]:
+        yield InputError("handout-tiny", format=drawn.format, quantity=name, mm=f"{least:.2g}")
 
 
 def scannable_of_case(case: Case, drawing: Drawn) -> Sheet:

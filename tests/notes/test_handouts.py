@@ -433,6 +433,15 @@ def test_steps_are_those_that_the_note_numbers() -> None:
     assert not before.warnings
 
 
+@pytest.mark.parametrize(("format", "told"), [("A4", ["l_OA"]), ("A2", [])])
+def test_a_link_too_short_to_draw_from_is_told_of_a_blank(format: str, told: list[str]) -> None:
+    blank = handout("scheme-14-jaw-crusher", "4", only="position,velocity", format=format)
+
+    short = [error for error in blank.warnings if error.key == "handout-tiny"]
+    assert [error.data["quantity"] for error in short] == told
+    assert all("3,5 мм" in error.text("uk") and "3.5 mm" in error.text("en") for error in short)
+
+
 @pytest.mark.parametrize(("task", "only"), [(TASK, "velocity"), ("madi-gear", "geometry")])
 def test_steps_warn_where_nothing_drawn_has_any(task: str, only: str) -> None:
     begun, blank = (handout(task, only=only, steps=steps) for steps in (3, 0))
