@@ -201,7 +201,7 @@ def too_long(file: str, row: int, column: int) -> InputError:
 
 def tidy(text: str) -> str:
     """Return a header word in small letters, with plain spaces and apostrophes."""
-    plain = " ".join(text.lower().replace("ё", "е").replace("’", "'").replace("ʼ", "'").replace(".", " ").split())
+    plain = " ".join(re.sub("[’ʼ`´′‘]", "'", text.lower().replace("ё", "е").replace(".", " ")).split())
     return plain.rstrip(":*? ")
 
 
