@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from cmath import rect
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -15,7 +16,22 @@ from .areas import around, beside, coarser
 from .formats import ZERO, Style
 from .labels import Labels, Scene, scene_of
 from .page import NOTE, extent, head_of
-from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
+from .shapes import (
+    Arc,
+    Arrow,
+    Circle,
+    Group,
+    Head,
+    Line,
+    Pen,
+    Polyline,
+    Shape,
+    Text,
+    Vector,
+    changed,
+    shifted,
+    sides_of,
+)
 from .spots import Obstacles, Request, first_clear, shelf
 from .text import Box, lay_out
 
@@ -28,6 +44,13 @@ ASKED = 3  # names of vectors that are asked to make room for the letter of an e
 SHUT_IN = 8  # letters without a free place of their own: where they are more, not every one has ever found a place
 ELSEWHERE = " "  # of a letter that is left out: another figure has it
 NUMERAL = 2.5  # mm that letters keep away from the numeral of a detail
+# of the details of a sheet: a V would be read as a velocity
+NUMERALS = [
+    tens + one for tens in ("", "X", "XX", "XXX") for one in ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
+]
+NUMERALS.remove("V")
+UNNUMBERED = NUMERALS[6:]  # of the details of a figure as long as it has no number: room for those that come then
+_WORD = re.compile("[IVX]+")
 BROKEN = 0.5  # mm between a letter and a line broken at it
 STRUCK = 0.15  # mm between a letter and a thin line that seems to run through it
 UNBROKEN = ("leader", "shelf", "right-angle", "arrow")  # roles of thin lines that break off nowhere
@@ -52,9 +75,10 @@ class View:
     chunks between which it may break, and the `rows` of a table, the first of which is its head. `stages` are those in
     which it is drawn, in order, with the keys of the sentences that tell them; `parts` has the stage of every shape,
     `needs` the stages of other views that must be done before some of them, `whole`, by the numbers of the shapes, what
-    those are pieces of that break off at letters. A table or a text has the `style` and the `width` in which parts of
-    it are drawn on several pages; a part tells the view `of` which it is one. There it follows the figure that it is
-    `about`, or, being about "", begins; where nothing is said it comes in the order of the work.
+    those are pieces of that break off at letters, `details` the numerals of its details. A table or a text has the
+    `style` and the `width` in which parts of it are drawn on several pages; a part tells the view `of` which it is one.
+    There it follows the figure that it is `about`, or, being about "", begins; where nothing is said it comes in the
+    order of the work.
     """
 
     name: str
@@ -69,6 +93,7 @@ class View:
     needs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     whole: Mapping[int, _Whole] = field(default_factory=dict)
     style: Style | None = None
+    details: tuple[str, ...] = ()
     width: float = 0.0
     of: str = ""
     about: str | None = None
@@ -128,6 +153,7 @@ class Canvas:
     parts: Mapping[str, str] = field(default_factory=dict)  # stages of a figure, with those in which they are drawn
     stages: Mapping[str, str] = field(default_factory=dict)  # these, with the keys of their sentences if they have any
     needs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # and the stages of other views that they need
+    _details: list[str] = field(default_factory=list)  # numerals
 
     def add(self, *shapes: Shape) -> None:
         """Draw shapes."""
@@ -212,8 +238,12 @@ class Canvas:
         return first_clear(places, size, _obstacles(self.shapes, self._boxes, self.style), 0.8)
 
     def detail(self, numeral: str, centre: complex, radius: float, name: str) -> None:
-        """Mark a place by a circle, its numeral on the shelf of a leader that is clear of all that is drawn."""
+        """Mark a place by a circle, its numeral on the shelf of a leader that is clear of all that is drawn.
+
+        That is one of `UNNUMBERED`, instead of which it has its own once figures are `numbered`.
+        """
         height = self.style.label
+        self._details.append(numeral)
         size = lay_out(numeral, height).width + 2.0, height + 1.0
         start, knee, end = shelf(centre, radius, size, _obstacles(self.shapes, self._boxes, self.style))
         self.add(Arc(centre, radius, 0.0, 2.0 * pi, Pen.THIN, role="window", name=name))
@@ -257,7 +287,8 @@ class Canvas:
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
         drawn = name, tuple(self.shapes), box, heading, tuple(notes)
-        return View(*drawn, parts=every, stages=self.stages, needs=self.needs, whole=whole)
+        details = tuple(self._details)
+        return View(*drawn, parts=every, stages=self.stages, needs=self.needs, whole=whole, details=details)
 
     def _left_out(self, kept: Collection[str]) -> list[str]:
         """Return what the notes say of letters left out: each text once, bare where no letter has what it speaks of."""
@@ -428,13 +459,33 @@ def _grown(box: Box, by: float) -> Box:
 
 
 def numbered(views: Iterable[View]) -> list[View]:
-    """Return views with the numbers of the figures among them, in order, before their headings."""
-    number = count(1)
-    return [_numbered(v, next(number)) if v.heading and not (v.rows or v.lines) else v for v in views]
+    """Return views with the numbers of the figures among them, in order, before their headings, and of details."""
+    number, numerals = count(1), iter(NUMERALS)
+    return [
+        _numbered(v, next(number), dict(zip(v.details, numerals, strict=False)))
+        if v.heading and not (v.rows or v.lines)
+        else v
+        for v in views
+    ]
 
 
-def _numbered(view: View, number: int) -> View:
-    """Return a view with its number before its heading, its box being as wide as that needs."""
+def _numbered(view: View, number: int, numerals: Mapping[str, str]) -> View:
+    """Return a view with its number before its heading, as wide as that needs, and the `numerals` of its details."""
+
+    def said(text: str) -> str:
+        return _WORD.sub(lambda found: numerals.get(found[0], found[0]), text)
+
+    def with_numerals(shape: Shape) -> Shape:
+        match shape:
+            case Text(markup=markup):
+                return replace(shape, markup=said(markup))
+            case Line(role="leader" | "shelf", name=name):
+                return replace(shape, name=said(name))
+        return shape
+
+    if numerals:
+        told = tuple(changed(shape, with_numerals) for shape in view.shapes)
+        view = replace(view, shapes=told, notes=tuple(map(said, view.notes)))
     shapes, (x0, y0, x1, y1) = list(view.shapes), view.box
     for i, shape in enumerate(shapes):
         if isinstance(shape, Text) and shape.role == "heading" and shape.markup == view.heading[0]:

@@ -16,7 +16,7 @@ from ..figure import Figure, Stage, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
 from ..text import Box
-from ..view import Canvas, View
+from ..view import UNNUMBERED, Canvas, View
 from .scene import HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
@@ -36,7 +36,6 @@ ARTICLE = "(14)"  # the formula of its curve
 LEAST = 2.5  # mm of a jump in a detail
 SEEN = 10.0  # mm of a jump that is seen as it is
 FREE = 8.0  # mm about a detail inside of a diagram
-DETAILS = {LIFT_OFF: "I", FORCES: "II"}  # numerals of details, over the square and at its place
 TALLEST = 1.05
 BROKEN = complex("nan+nanj")  # where a curve is interrupted
 RESTING, HANGING = "resting", "hanging"  # stages: until the lift-off, after it
@@ -173,7 +172,6 @@ class _Detail:
 
     canvas: Canvas
     scene: HoistScene
-    plan: str
     centre: complex
     corner: complex
     times: float
@@ -222,9 +220,9 @@ class _Detail:
         square = complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
         frame = Group((Polyline(square, Pen.THIN, closed=True),), "frame", "magnified")
         canvas.add(Group(shapes, "magnified", "X"), frame)
-        title = f"{DETAILS[self.plan]} ({self.scene.words.short(self.times)}:1)"
+        title = f"{UNNUMBERED[0]} ({self.scene.words.short(self.times)}:1)"
         canvas.add(Text(complex(x0 + HALF, y1 + 0.6 * h), title, h, "middle", role="magnified"))
-        canvas.detail(DETAILS[self.plan], self.centre, abs(complex(HALF, HALF)) / self.times, "magnified")
+        canvas.detail(UNNUMBERED[0], self.centre, abs(complex(HALF, HALF)) / self.times, "magnified")
 
 
 def _room(field: Field, curve: Sequence[complex]) -> complex:
@@ -240,7 +238,7 @@ def _room(field: Field, curve: Sequence[complex]) -> complex:
 def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
     """Draw the crossing with its chords, larger, in a square whose lower left corner is given."""
     centre = scene.mm(f"{LIFT_OFF}.X")
-    detail = _Detail(canvas, scene, LIFT_OFF, centre, corner, TIMES)
+    detail = _Detail(canvas, scene, centre, corner, TIMES)
     shapes: list[Shape] = []
     for name, letter in CURVES.items():
         dense = scene.places(equation(scene.solved, letter, centre.real, HALF / TIMES))
@@ -331,7 +329,7 @@ def _jump(canvas: Canvas, scene: HoistScene, field: Field, curves: Mapping[str, 
         corner = complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag)
     heights = [place.imag for place in shown]
     centre = complex(shown[0].real, 0.5 * (min(heights) + max(heights)))
-    detail = _Detail(canvas, scene, FORCES, centre, corner, times)
+    detail = _Detail(canvas, scene, centre, corner, times)
     detail.moment()
     for name in [*LEVELS][: 1 + (at["P_m"] != at["P_st"])]:
         detail.level(name, at[name], words.symbol(name))

@@ -527,3 +527,41 @@ def test_a_text_that_is_higher_than_a_page_stands_in_parts_one_after_the_other()
     assert (whole.of, whole.lines) == ("", first.lines + rest.lines)
     assert min(len(first.lines), len(rest.lines)) > 10
     assert all(first.heading[0] in part.heading[0] for part in (whole, first, rest))
+
+
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some(
+        [
+            ("scheme-14-jaw-crusher", "3"),  # a detail of accelerations, and of small forces after it
+            ("bertyaev-six-bar", "example"),  # of compound motion
+            ("karpenko-hoist", "V02"),
+            ("scheme-20-press-automaton", "0"),
+        ],
+        0,
+        1,
+        2,
+    ),
+)
+def test_details_are_numbered_as_their_figures_come(task: str, variant: str) -> None:
+    def every(shapes: tuple[Any, ...]) -> Iterator[Any]:
+        for shape in shapes:
+            yield from every(shape.shapes) if isinstance(shape, Group) else (shape,)
+
+    marked, entitled, told = list[str](), list[str](), set[str]()
+    for view in kulman.sheet(task, variant, lang="uk").views:
+        shapes = [*every(view.shapes)]
+        texts = {shape.markup for shape in shapes if isinstance(shape, Text)}
+        shelves = [shape.name for shape in shapes if getattr(shape, "role", "") == "shelf" and shape.name]
+        assert texts.issuperset(shelves)
+        said = {text for text in texts if "виносний елемент" in text}
+        assert said <= {*view.notes}
+        told |= {text.partition("елемент ")[2] for text in said}
+        found = (re.match(r"Виносний елемент (.*)|([IVX]+) \(\d+:1\)", text) for text in texts)
+        entitled += sorted((match[1] or match[2] for match in found if match), key=shelves.index)
+        marked += shelves
+
+    assert marked == ["I", "II", "III", "IV", "VI", "VII", "VIII", "IX", "XI", "XII"][: len(marked)]
+    assert entitled == marked
+    assert {*marked} >= told
+    assert marked

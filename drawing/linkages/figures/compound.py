@@ -191,7 +191,7 @@ def _thin(shape: Shape) -> Shape:
     return replace(shape, pen=Pen.THIN) if isinstance(shape, Line) and shape.pen is Pen.MAIN else shape
 
 
-def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window, str]]:
+def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]]:
     """Draw the arms, the construction lines and the vectors at points; return the insets, where some have letters."""
     for at in points:
         start, end, rim = at.scene.mm(at.coupler.pivot), at.place, at.scene.style.pair
@@ -213,8 +213,7 @@ def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window,
             canvas.part(drawn_with.get(vector.quantity, vector.quantity))
             seen = any(window.shows(vector.tail, vector.tip) for window in shown[at.plan])
             _vector(canvas, at.scene, vector, lettered=not seen)
-    every = [(at, window) for at in points for window in shown[at.plan]]
-    return [(at, window, numeral) for (at, window), numeral in zip(every, plans.NUMERALS, strict=False)]
+    return [(at, window) for at in points for window in shown[at.plan]]
 
 
 def _vector(canvas: Canvas, scene: Scene, vector: Vector, lettered: bool = True) -> None:

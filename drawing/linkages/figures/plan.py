@@ -20,7 +20,7 @@ from ...areas import clipped
 from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from ...text import Box
-from ...view import EACH, ELSEWHERE, Canvas, View, write_above
+from ...view import EACH, ELSEWHERE, UNNUMBERED, Canvas, View, write_above
 from ..reading import Edge
 from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
@@ -35,7 +35,6 @@ NARROW, WIDER = 8.0, 12.0  # mm by which its frame stands farther out where they
 LEAST_PLACE = 3.0  # mm, the least radius of the circle around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
 EMPTY: Mapping[str, str] = {}
-NUMERALS = ["I", "II", "III", "IV", "VI", "VII", "VIII", "IX", "XI", "XII"]  # a V would be read as a velocity
 ENLARGED = "enlarged"  # the stage of insets: all that a figure has is there before them
 PAST = 10.0  # mm by which a construction line runs past the point that it finds
 LONGER = 5.0  # mm by which its name may reach past the end of such a line
@@ -179,7 +178,7 @@ class Plan:
                 near = [end for k, end in enumerate(ends) if max(size_of(ends[: k + 1])) <= widest]
                 shown = max(shown, near, key=len)
             window = Window.about(shown, times, NARROWEST)
-            view, wider = _roomy(self, window, self.plan, NUMERALS[0])
+            view, wider = _roomy(self, window, self.plan, UNNUMBERED[0])
             bad = len(_unlettered(self.scene, marks, view.shapes)) + len(_outside(view, wider))
             if bad < least:
                 best, least = window, bad
@@ -245,7 +244,7 @@ def with_insets(
     name: str,
     heading: tuple[str, ...],
     notes: tuple[str, ...],
-    shown: Sequence[tuple[Plan, Window, str]],
+    shown: Sequence[tuple[Plan, Window]],
 ) -> View:
     """Finish a figure: mark the surroundings of short vectors in it with numerals, and put each enlarged beside it.
 
@@ -253,18 +252,19 @@ def with_insets(
     """
     if not shown:
         return canvas.finish(name, heading, notes)
-    insets, windows = zip(*(_roomy(plan, window, name, numeral) for plan, window, numeral in shown), strict=True)
+    numerals = UNNUMBERED[: len(shown)]
+    roomy = [_roomy(*each, name, numeral) for each, numeral in zip(shown, numerals, strict=True)]
     canvas.part(ENLARGED)
-    for ((x0, y0, x1, y1), _), (*_, numeral) in zip(windows, shown, strict=True):
+    for (inset, ((x0, y0, x1, y1), _)), numeral in zip(roomy, numerals, strict=True):
         radius = max(LEAST_PLACE, abs(complex(x1 - x0, y1 - y0)) / 2)
-        canvas.detail(numeral, complex(x0 + x1, y0 + y1) / 2, radius, f"{name}_{numeral}")
+        canvas.detail(numeral, complex(x0 + x1, y0 + y1) / 2, radius, inset.name)
     figure = canvas.finish(name)
     notes = (*notes, *figure.notes)  # of letters that are left out
     ways = []
     for right in (True, False):
         x, y = (figure.box[2] + GAP, figure.box[1]) if right else (figure.box[0], figure.box[1] - GAP)
         placed = list[Shape](figure.shapes)
-        for inset in insets:
+        for inset, _ in roomy:
             (width, height), (left, low, *_) = inset.size, inset.box
             corner = complex(x - left, y - low - (0.0 if right else height))
             placed.append(Group(tuple(shifted(shape, corner) for shape in inset.shapes), ENLARGED, inset.name))
@@ -274,10 +274,9 @@ def with_insets(
     _, shapes = min(ways, key=lambda way: way[0])
     before = len(shapes)
     x0, y0, x1, y1 = write_above(shapes, heading, notes, canvas.style)
-    parts = (*figure.parts, *(ENLARGED for _ in insets), *("" for _ in shapes[before:]))
-    return View(
-        name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts, whole=figure.whole
-    )
+    parts = (*figure.parts, *(ENLARGED for _ in roomy), *("" for _ in shapes[before:]))
+    box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
+    return replace(figure, shapes=tuple(shapes), box=box, heading=heading, notes=notes, parts=parts)
 
 
 def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
@@ -313,7 +312,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, told: bool = F
 
     Letters without room beside their vectors are rather `told` in its notes than led far away.
     """
-    name = f"{figure}_{numeral}"
+    name = f"{figure}_detail_{UNNUMBERED.index(numeral) + 1}"
     scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
     bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
     lean = 2 * OFF  # of letters, as they stand in no box of theirs
@@ -457,24 +456,12 @@ def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[s
     said_short = [f"{letter} ({words.number(mm, 2)})" for letter, mm in lengths.items() if mm >= 1e-6]
     for i in range(0, len(said_short), EACH):
         notes.append(words["said.short"].format(vectors=", ".join(said_short[i : i + EACH])))
-    numeral = _numeral(scene, plan) if shown else ""
     for window in shown:
         inside = map(words.mark, crowd) if crowd else map(scene.letter, forces.read_in(window))
         if symbols := dict.fromkeys(inside):
-            notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=numeral))
+            notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=UNNUMBERED[0]))
     heading = plan_heading(words, scene.solved.structure, plan), words.scale(scene.scales[plan])
-    insets = [(forces, window, numeral) for window in shown]
-    return with_insets(canvas, plan, heading, tuple(notes), insets), marks
-
-
-def _numeral(scene: Scene, plan: str) -> str:
-    """Return the numeral of the inset of a plan: a sheet has each once, those of small forces in order, then others."""
-    counts = {other: len(Plan(scene, other).windows()) for other in scene.solved.program.plans}
-    if counts[plan]:
-        return NUMERALS[sum(counts[other] for other in [*counts][: [*counts].index(plan)])]
-    kinds = "acceleration", "velocity", FORCES
-    others = [other for kind in kinds for other in counts if role(other).kind == kind and not counts[other]]
-    return NUMERALS[sum(counts.values()) + others.index(plan)]
+    return with_insets(canvas, plan, heading, tuple(notes), [(forces, window) for window in shown]), marks
 
 
 def _vectors(
