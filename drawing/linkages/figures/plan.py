@@ -386,12 +386,13 @@ def letter_marks(
 ) -> None:
     """Draw poles and points with their letters outside of the figure; marks that coincide share one letter.
 
-    Of some it is `said` in the notes, or elsewhere, which they are, if there is no room for their letters.
+    Of some it is `said` in the notes, or elsewhere, which they are, if there is no room for their letters; those whose
+    letters are blank have none.
     """
     if not places:
         return
     middle, at = sum(places.values()) / len(places), dict[complex, list[str]]()
-    for mark in letters:
+    for mark in filter(letters.get, letters):
         near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
         at.setdefault(near, []).append(mark)
     for mark in poles:
@@ -446,8 +447,8 @@ def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[s
     marks = *poles, *(edge.tip for edge in vectors if edge.tip in ends)
     said = {edge.tip: _ends_of(scene, edge, vectors) for edge in reversed(left)}
     places = {m: scene.mm(m) for m in marks}
-    said |= {m: ELSEWHERE for m, at in places.items() if m in crowd or any(w.shows(at) for w in short_ones)}
-    letter_marks(canvas, scene, {m: words.mark(m) for m in marks}, places, poles, said)
+    said |= {m: ELSEWHERE for m, at in places.items() if any(w.shows(at) for w in short_ones)}
+    letter_marks(canvas, scene, {m: words.mark(m) * (m not in crowd) for m in marks}, places, poles, said)
     notes = [*said_flat(scene, plan)]
     read = {quantity for window in short_ones for quantity in forces.read_in(window)}
     short = [v for v in map(scene.vector, dict.fromkeys(vectors)) if length_of(v) < SHORT and v.quantity not in read]
