@@ -895,7 +895,7 @@ def test_each_point_of_a_plan_has_its_letter_there_or_in_a_detail(task: str, var
     assert len({*numerals}) == len(numerals)
 
 
-# lines beside vectors, that end between letters, whose mark has a leader; one without any room
+# lines beside vectors, that end between letters, whose mark has a leader; two without any room
 @pytest.mark.parametrize(
     ("task", "variant", "noted"),
     some(
@@ -904,7 +904,7 @@ def test_each_point_of_a_plan_has_its_letter_there_or_in_a_detail(task: str, var
             ("scheme-20-press-automaton", "4", []),
             ("scheme-15-lever-shears", "0", []),
             ("scheme-17-sewing-machine", "0", []),
-            ("scheme-17-sewing-machine", "4", ["p′b′ ∥ x–x"]),
+            ("scheme-17-sewing-machine", "4", ["n_{2}b′ ⊥ AB", "p′b′ ∥ x–x"]),
         ],
         1,
         4,
