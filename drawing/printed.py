@@ -326,16 +326,17 @@ def laid_off(words: Words, value: float, mu: float, known: str) -> str:
     """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
 
     It is as long as it is drawn, to the last digit that a ruler shows. It has one digit more than a ruler where a
-    number could not be told from others, and still one more where the number has three digits, or no decimals to lose.
+    number could not be told from others, and still one more where the number has three digits at most.
     """
     segment = abs(value) / mu
     usual, finest = ruler_decimals(words, segment), ruler_decimals(words, 0.0)
-    few = segment >= READABLE and (not places_of(known) or len(re.sub(r"\D", "", known).lstrip("0")) <= ENOUGH)
+    most = max(0.5 * 10.0**-usual, 10.0**-finest) * (1.0 + TIE)
+    few = segment >= READABLE and len(re.sub(r"\D", "", known).lstrip("0")) <= ENOUGH
     for decimals in range(usual, finest + 1 + few):
         here, step = rounded(segment, decimals), 10.0**-decimals
         beside = (here - step, here + step, rounded(number_of(known) / mu, decimals)) if decimals >= finest else ()
         for mm in (here, *beside):
-            if abs(mm - segment) <= 10.0**-usual * (1.0 + TIE) and recomputes(mm * mu, known):
+            if abs(mm - segment) <= most and recomputes(mm * mu, known):
                 return words.number(mm, decimals)
     return ""
 
@@ -410,7 +411,7 @@ def _as_it_fits(
     """
     right, usual = law(*(one.value for one in inputs)), value_text(words, reckoned, most)
     usual = shortest(words, reckoned) if all(one.exact for one in inputs) else usual
-    ways = [usual, *(value_text(words, reckoned, digits) for digits in range(DIGITS, 0, -1))]
+    ways = [usual, *(value_text(words, reckoned, digits) for digits in (DIGITS + 1, *range(DIGITS, 0, -1)))]
     if most == DIGITS:  # with more it is to be compared with what is found another way
         ways = [way for way in ways if abs(number_of(way) - right) <= SLACK * 10.0 ** -places_of(way)] or ways
     return next(filter(fits, ways), ways[0])

@@ -37,7 +37,7 @@ HUNG = 17.0  # mm that it is for each moment on Zhukovsky's lever: the more hang
 PROPORTION = 2.5  # times as large as the velocity plan that a task fixes its lever and its forces may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
-CRANK = 45.0  # mm, the least length of a crank drawn apart
+CRANK = 40.0  # mm, the least length of a crank drawn apart: with twice of it, too, the driver has room on A4
 ZERO_LINE, ARC = 1.1, 0.45  # of the crank: how long the line is from which phi is measured, the radius of its arc
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "similar", "same")
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
