@@ -1,7 +1,7 @@
 """Parts that all constructions share: how a link lies and moves, and where its points are on every plan.
 
 A link with two joints carries its points by similarity; a link with one joint and a sliding pair by rotation about that
-joint. A straight link whose points stand on one axis from the first joint needs neither: its segments are divided.
+joint. Points that stand on one axis with both joints, the first at its origin, need neither: its segment is divided.
 """
 
 from __future__ import annotations
@@ -133,8 +133,9 @@ class Span:
         # the distance of the joints is given where `end` stands on the x axis from `start`, else it is measured
         origin, (x, y) = link.points[start], link.points[end]
         self.measured = origin != (ZERO, ZERO) or y != ZERO or x != positive(x)
-        # whether all points stand on the x axis, `start` at the origin
-        self.straight = not self.measured and x != ZERO and all(y == ZERO for _, y in link.points.values())
+        # points that stand in line with both joints, on the x axis with `start` at the origin
+        on_axis = not self.measured and x != ZERO
+        self.in_line = frozenset(point for point in self.others if on_axis and link.points[point][1] == ZERO)
         length, taken = between("l", start, end), {positive(xy) for place in link.points.values() for xy in place}
         # a hidden name where a coordinate has taken that name
         self.length: str = x if not self.measured else length.size if length in taken else length
@@ -160,9 +161,10 @@ class Span:
         if not turned:
             board.direction(self.e, self.start, self.end, self.length)
         board.normal(self.n, self.e)
-        if not self.straight:
+        aside = [point for point in self.others if point not in self.in_line]
+        if aside:
             start, end = self._on_drawing(board)
-            for point in self.others:
+            for point in aside:
                 local = local_mark(board, self.link, point)
                 board.calc(f"_along_{point}", "part_along", start, end, local)
                 board.calc(f"_across_{point}", "part_across", start, end, local)
@@ -177,7 +179,7 @@ class Span:
             plan.read(point)
 
     def _third(self, board: Board, point: str, mark: str, start: str, end: str) -> None:
-        if self.straight:
+        if point in self.in_line:
             board.divide(mark, start, end, self.link.points[point][0], self.length)
         else:
             board.similar(mark, start, end, f"_along_{point}", f"_across_{point}")
