@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, SupportsFloat, TypeAlias, TypeGuard
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..plans.quantities import Quantity
-from ..scales.errors import InputError, KulmanError, spoken
+from ..scales.errors import InputError, KulmanError, as_one, spoken
 from ..scales.givens import Bound, Described
 from ..scales.names import latin, unknown
 from ..scales.numbers import quote
@@ -230,20 +230,29 @@ class Task:
         for stated, others in self.instead:
             if stated <= {*(settings or {})}:
                 resolved |= dict.fromkeys((name for name in others if name in resolved), None)
+        faults = list[InputError]()
         for name, value in (settings or {}).items():
-            if name not in self.givens:
-                if isinstance(self.subject, Described) and name in self.subject.givens:
-                    known = ", ".join(self.givens)
-                    raise InputError("given-absent", text=name, task=quote(self.id), known=known)
-                raise unknown("given-unknown", name, self.givens, task=self.id)
             try:
-                resolved[name] = self.givens[name].read(value)
+                resolved[name] = self._read(name, value)
             except InputError as error:
-                numbers = value[0] if isinstance(value, tuple) and value else value
-                several = error.key == "type-quantity" and isinstance(numbers, Sized)
-                several = several and not isinstance(numbers, (str, Mapping))
-                raise LocatedError(name, InputError("type-quantities") if several else error) from error
+                faults.append(error)
+        if faults:
+            raise as_one(faults)
         return {name: value for name, value in resolved.items() if value is not None}
+
+    def _read(self, name: str, value: object) -> float | str:
+        """Read what a given is set to."""
+        if name not in self.givens:
+            if isinstance(self.subject, Described) and name in self.subject.givens:
+                raise InputError("given-absent", text=name, task=quote(self.id), known=", ".join(self.givens))
+            raise unknown("given-unknown", name, self.givens, task=self.id)
+        try:
+            return self.givens[name].read(value)
+        except InputError as error:
+            numbers = value[0] if isinstance(value, tuple) and value else value
+            several = error.key == "type-quantity" and isinstance(numbers, Sized)
+            several = several and not isinstance(numbers, (str, Mapping))
+            raise LocatedError(name, InputError("type-quantities") if several else error) from error
 
     def values(self, variant_id: str | None = None, settings: Settings | None = None) -> dict[str, float]:
         """Return every number that the subject names, in SI: givens, what the choices set, and constants."""

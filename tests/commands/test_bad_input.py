@@ -235,6 +235,14 @@ def test_setting_as_it_is_printed_is_told_how_it_is_typed(printed: str, typed: s
     assert f"можливо, «{typed}»?" in refused.value.text("uk")
 
 
+def test_all_settings_that_are_wrong_are_told_at_once() -> None:
+    with pytest.raises(InputError) as caught:
+        solve(TASK, set={"phi": "abc", "l_OA": "30 mm", "n_1": "5 kg", "l_XX": "1 mm"})
+
+    assert [error.key for error in caught.value.data["faults"]] == ["number-bad", "unit-wrong", "given-unknown"]
+    assert "no given 'l_XX'" in caught.value.text("en")
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})
