@@ -117,7 +117,11 @@ def test_students_see_what_they_may(passwords: Path) -> None:
         begun = time.monotonic()
         assert client.get("/", auth=("teacher", "wrong")).status_code == 401
         assert time.monotonic() - begun > 0.4
-        assert client.get("/").headers["www-authenticate"].startswith("Basic")
+        asked_for = client.get("/")
+        assert asked_for.headers["www-authenticate"].startswith("Basic")
+        assert all(
+            word in asked_for.text for word in ("teacher or student", "teacher або student", "teacher или student")
+        )
         assert client.get("http://plans.example.edu/", **teacher).status_code == 200
 
 

@@ -20,8 +20,9 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from ...scales.errors import InputError
+from ...scales.errors import LANGUAGES, InputError
 from ...scales.numbers import quote
+from ...scales.packaged import packaged
 from ..drawings.apart import handed_in
 
 LARGEST_BODY = 50_000_000  # bytes: the forms of a class
@@ -200,11 +201,11 @@ class Gate:
         if not doors.host(headers.get("host", "")):
             return PlainTextResponse("421 not a name of this server\n", 421)
         if not doors.own(headers):
-            return PlainTextResponse("403 from another site\n", 403)
+            return _told("refused.site", 403)
         if not doors.passwords:
             begin, _, rest = scope["path"].removeprefix("/").partition("/")
             if not secrets.compare_digest(begin.encode("utf-8", "replace"), doors.token.encode()):
-                return PlainTextResponse("403 open the address that `kulman serve` has printed\n", 403)
+                return _told("refused.address", 403)
             scope["path"] = f"/{rest}"
         return None
 
@@ -216,7 +217,8 @@ class Gate:
         if "authorization" in headers:
             async with self._wrong:
                 await asyncio.sleep(WRONG)
-        return PlainTextResponse("401\n", 401, {"WWW-Authenticate": 'Basic realm="kulman", charset="UTF-8"'})
+        asks = {"WWW-Authenticate": 'Basic realm="kulman: teacher, student", charset="UTF-8"'}
+        return _told("refused.password", 401, asks)
 
     async def _too_large(self, headers: Headers, body: _Body) -> bool:
         """Whether a request says that it is too large; it is read on: a browser that is cut off shows no answer."""
@@ -228,6 +230,12 @@ class Gate:
             while length.isdigit() and int(length) <= READ_ON and (await body()).get("more_body"):
                 pass
         return True
+
+
+def _told(key: str, status: int, headers: Mapping[str, str] | None = None) -> Response:
+    """Return a refusal in all languages: nothing of the request is believed, not even which one it wants."""
+    lines = (packaged(__package__, "texts", language)[key] for language in LANGUAGES)
+    return PlainTextResponse("\n".join((str(status), *lines, "")), status, headers)
 
 
 class Patient(H11Protocol):
