@@ -5,9 +5,8 @@ from __future__ import annotations
 import atexit
 import gc
 import os
-import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -36,7 +35,6 @@ from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
 
 INTERRUPTED = 130
-STEM, ENDING = 4, 2  # letters of a word that count at least, and that may be its ending
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -138,13 +136,13 @@ def show_guide(topic: str | None, lang: str | None) -> None:
 @console.of_language
 def list_tasks(words: tuple[str, ...], as_json: bool, file: str | None, lang: str | None) -> int:
     """Show the tasks, or those with these words in their names, their variants, and what each draws."""
-    from .variants.shelf import bundled, summary
+    from .variants.shelf import bundled, called
 
     if file is not None:
         if words:
-            raise InputError("handout-apart", first="--check", second=quote(words[0]))
+            raise InputError("check-one", text=quote(words[0]))
         return _check(file, as_json)
-    tasks = [task for task in map(summary, bundled()) if _is_called(task, " ".join(words))]
+    tasks = [*called(" ".join(words))]
     if not tasks:
         raise unknown("bundled-unknown", " ".join(words), bundled())
     language = system_language()
@@ -159,16 +157,6 @@ def list_tasks(words: tuple[str, ...], as_json: bool, file: str | None, lang: st
         if "note" in task:
             click.echo(f"    {said['list-note']}: {task['note'][language]}")
     return 0
-
-
-def _is_called(task: Mapping[str, Any], words: str) -> bool:
-    """Whether the id of a task and its titles in all languages have all these words, whatever their endings."""
-    name, asked = (
-        re.findall(r"[^\W_]+", text.casefold().replace("ё", "е"))
-        for text in (" ".join((task["id"], *task["title"].values())), words)
-    )
-    stems = (word[: max(STEM, len(word) - ENDING)] for word in asked)
-    return all(any(one.startswith(stem) for one in name) for stem in stems)
 
 
 def _check(file: str, as_json: bool) -> int:

@@ -36,9 +36,10 @@ from .checks.basics import (
 )
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import table_in
-from .shelf import bundled, bundled_text
+from .shelf import bundled, bundled_text, called
 from .task import WITH_FORCES, AnyTask, Given, LocatedError, Task, decoded
 
+FEW = 3  # tasks that a word may be meant for
 LARGEST_FILE = 1_000_000
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
 # tomllib takes time as the square of the parts of a dotted key
@@ -164,7 +165,11 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
         state = path.stat()
     except (OSError, ValueError) as error:
         if isinstance(task, str) and not re.search(r"[./\\]", task):
-            raise unknown("task-unknown", task, bundled()) from error
+            refused = unknown("task-unknown", task, bundled())
+            meant = [one["id"] for one in called(task)] if refused.key == "task-unknown" else []
+            if not 0 < len(meant) <= FEW:
+                raise refused from error
+            raise InputError("task-unknown-like", text=quote(task), like=Written(", ".join(meant))) from error
         raise InputError("file-missing", file=quote(shown, 200)) from error
     if not stat.S_ISREG(state.st_mode):
         raise InputError("file-not-regular", file=shown)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterator
 from typing import Any
 
 from ..scales.names import of_its_kinds, unknown
@@ -18,6 +19,7 @@ _ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
 _TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)
 HEADS = re.compile(r"^\[+(\w+)", re.MULTILINE)  # of tables
 _GIVEN = re.compile(r'^(\w+) = \{ (?:unit = "([^"]+)"|choices = \[([^]]+)\])', re.MULTILINE)
+STEM, ENDING = 4, 2  # letters of a word that count at least, and that may be its ending
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
 
@@ -59,6 +61,22 @@ def summary(task: str) -> dict[str, Any]:
         "variants": _ID.findall(text)[1:],
         "givens": givens,
     }
+
+
+def called(words: str) -> Iterator[dict[str, Any]]:
+    """Go through what `list` shows of the bundled tasks with all these words in names or titles, whatever their ends.
+
+    >>> [task["id"] for task in called("щокова")]
+    ['scheme-14-jaw-crusher']
+    """
+    for task in map(summary, bundled()):
+        name, asked = (
+            re.findall(r"[^\W_]+", text.casefold().replace("ё", "е"))
+            for text in (" ".join((task["id"], *task["title"].values())), words)
+        )
+        stems = (word[: max(STEM, len(word) - ENDING)] for word in asked)
+        if all(any(one.startswith(stem) for one in name) for stem in stems):
+            yield task
 
 
 def guides(language: str) -> dict[str, str]:

@@ -310,6 +310,12 @@ def test_what_is_no_regular_file_is_refused_without_waiting_for_it(refusal: Call
 ARGUMENTS = {
     "unknown command": (["slove", TASK], "did you mean solve?"),
     "unknown option": (["solve", TASK, "--varient", "3"], "--variant"),
+    "option with one dash": (["solve", TASK, "-set", "phi=3"], "unknown option -set; did you mean --set?"),
+    "unknown letter": (["solve", TASK, "-z"], "unknown option -z; see kulman solve --help"),
+    "several givens at once": (["solve", TASK, "--set", "phi=60°, n_1=90"], "say --set again for 'n_1=90'"),
+    "several files to check": (["list", "--check", "a.toml", "b.toml"], "'b.toml' is too many"),
+    "word of one task's title": (["solve", "щокова"], "did you mean scheme-14-jaw-crusher?"),
+    "word of many titles": (["solve", "механізм"], "the tasks are: "),
     "no task": (["solve"], "TASK"),
     "no output": (["sheet", TASK], "-o is missing"),
     "too many arguments": (["solve", TASK, "3", "4"], "unexpected '3 4'; see kulman solve --help"),

@@ -305,7 +305,11 @@ def usage_error(error: click.UsageError, words: Sequence[str], commands: click.G
     called = next((commands.commands[word] for word in words if word in commands.commands), commands)
     command = "kulman" if called is commands else f"kulman {called.name}"
     if isinstance(error, click.NoSuchOption):
-        text, like = quote(error.option_name), next(iter(error.possibilities or ()), None)
+        # of `-set` click has read -s
+        whole = next((word for word in words if word[:2] == error.option_name and len(word) > 2), error.option_name)
+        longer = f"-{whole.partition('=')[0]}"
+        known = [longer] if any(longer in one.opts for one in called.params) else error.possibilities
+        text, like = quote(whole), next(iter(known or ()), None)
         if like:
             return InputError("cli-option-unknown-like", text=text, like=like)
         return InputError("cli-option-unknown", text=text, command=command)
@@ -357,6 +361,9 @@ def pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
         name, equals, text = (part.strip() for part in value.partition("="))
         if not name or not equals or not text:
             raise InputError("cli-setting", option=param.opts[0], text=quote(value))
+        if several := re.search(r",\s*(?=[^\W\d]\w*\s*=)", text):
+            option, others = param.opts[0], text[several.end() :]
+            raise InputError("cli-setting-again", option=option, text=quote(value), other=quote(others))
         if name in found:
             raise InputError("cli-setting-twice", option=param.opts[0], text=quote(name))
         found[name] = text
