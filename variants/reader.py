@@ -166,7 +166,8 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
     except (OSError, ValueError) as error:
         if isinstance(task, str) and not re.search(r"[./\\]", task):
             refused = unknown("task-unknown", task, bundled())
-            meant = [one["id"] for one in called(task)] if refused.key == "task-unknown" else []
+            part = any(task.casefold() in one for one in bundled())  # of names, which are told then
+            meant = [] if part or refused.key != "task-unknown" else [one["id"] for one in called(task)]
             if not 0 < len(meant) <= FEW:
                 raise refused from error
             raise InputError("task-unknown-like", text=quote(task), like=Written(", ".join(meant))) from error
