@@ -273,6 +273,20 @@ def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: 
     assert client.post("/class", data=form).status_code == 400
 
 
+def test_a_page_speaks_of_what_a_browser_has_and_not_of_commands(client: TestClient) -> None:
+    page = unescape(client.get("/task/scheme-14-jaw-crusher?v=2&format=A4&lang=en").text)
+    told = re.findall(r"scale factors are not those of[^<]*", page)
+    answers = ("forms", ("a.csv", b"student;V_A, m/s\nA;5\n"))
+    wrong = ("rubric", ("моя.pdf", b"x"))
+    marks = finished(client, client.post("/marks?lang=en", data={"tasks": TASK}, files=[answers, wrong]))
+
+    assert len(told) == 1
+    assert "kulman" not in told[0]
+    assert "моя.pdf: unknown kind of file; expected a name that ends in one of: .toml" in unescape(
+        client.get(marks).text
+    )
+
+
 @pytest.mark.parametrize("said", ["position,velocity", "механізм, швидкості"])
 def test_plans_of_a_class_can_be_chosen(client: TestClient, tmp_path: Path, said: str) -> None:
     form = {"tasks": TASK, "kinds": ["handout"], "merge": "1", "only": said}

@@ -136,11 +136,8 @@ class Upload:
         """
         suffix = Path(self.name).suffix.lower()
         if suffix not in known:
-            raise InputError(
-                "answers-suffix" if known == TABLES else "answers-kind",
-                file=quote(self.name, SHOWN),
-                known=", ".join(known),
-            )
+            key = {TABLES: "answers-suffix", ANSWERS: "answers-kind"}.get((*known,), "output-suffix")
+            raise InputError(key, file=quote(self.name, SHOWN), known=", ".join(known))
         FORMS.mkdir(exist_ok=True)
         file = FORMS / f"{number:03d}-{slug(Path(self.name).stem)}{suffix}"
         file.write_bytes(self.data)

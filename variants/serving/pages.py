@@ -12,7 +12,7 @@ from urllib.parse import quote, urlencode
 from markdown_it import MarkdownIt
 
 from ...scales.choices import HANDS, SHEETS, SIZES
-from ...scales.errors import LANGUAGES, KulmanError
+from ...scales.errors import LANGUAGES, InputError, KulmanError, messages
 from ...scales.packaged import packaged
 from ..batches.batch import FORMS
 from ..marking.keyed import COLUMNS
@@ -85,8 +85,9 @@ class Door:
         return f"{self.root}{quote(path)}" + (f"?{urlencode(own)}" if own else "")
 
     def told(self, error: KulmanError) -> str:
-        """Return the message of an error."""
-        return error.text(self.language)
+        """Return the message of an error, without commands where a page has its own words for what they are for."""
+        own = f"{error.key}-page"
+        return (InputError(own, **error.data) if own in messages(self.language) else error).text(self.language)
 
 
 def page(
