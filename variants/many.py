@@ -230,7 +230,7 @@ def _in_si(given: Given, value: Any) -> Array:
     except (TypeError, ValueError):
         raise InputError("type-quantity-array", expected=given.unit.si.name, other=Written(given.unit.name)) from None
     if not array.size:
-        raise InputError("number-empty")
+        raise InputError("array-empty")
     least, most = int(np.argmin(array)), int(np.argmax(array))
     across = [int(np.argmin(np.abs(array)))] if array.flat[least] < 0.0 < array.flat[most] else []  # nearest to zero
     for worst in {least, most, *across}:

@@ -124,7 +124,7 @@ def test_words_are_chosen_and_settings_hold_for_all_states() -> None:
         ({"phi": np.array([1 + 1j])}, "type-quantity-array"),
         ({"l_AB": [0.1, -0.1]}, "not-positive"),
         ({"l_AB": [0.1, 0.0, 0.2]}, "not-positive"),
-        ({"phi": []}, "number-empty"),
+        ({"phi": []}, "array-empty"),
         ({"phi": [1.0, 2.0], "l_AB": [0.1, 0.2, 0.3]}, "arrays-shapes"),
         ({"side": "up"}, "choice-unknown"),
         ({"phi": [1.0], "names": "jerk"}, "quantity-unknown"),
