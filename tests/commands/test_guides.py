@@ -94,6 +94,7 @@ def test_a_guide_leads_on_to_others_and_to_tasks(run: Run) -> None:
 
     assert "(kulman guide task-file)" in shown
     assert "(kulman show scheme-09-shaper)" in shown
+    assert "first steps (docs/notebooks/first-steps.ipynb)" in run("guide", "python")[1]  # among the sources
     assert run("guide", "marknig") == (2, "", "there is no guide 'marknig'; did you mean marking?\n")
 
 

@@ -26,6 +26,8 @@ def _followed(link: re.Match[str]) -> str:
         return f"{words} (kulman guide {name})"
     if target.suffix == ".toml" and target.parent.name == "tasks":
         return f"{words} (kulman show {name})"
+    if not link[0].startswith("!") and target.is_relative_to("../.."):  # among the sources, which are not installed
+        return f"{words} ({target.relative_to('../..').as_posix()})"
     return f"{words} ({link[2]})" if "://" in link[2] and words != link[2] else words
 
 
