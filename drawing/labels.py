@@ -19,6 +19,7 @@ from .spots import Obstacles, Request, Segment, Surroundings, Wanted
 from .text import Box
 
 APART = 1.4  # mm that should be left between two labels, beyond the gap around each, lest they read as one
+IN_ROW = 1.3  # of the lower one's height that should be left between two labels on one line
 BAR = 1.2  # mm between a label and the leader of another, which nearer would look like a bar over or under it
 SOME = 120  # leaders, the cheapest for their own sake, that are looked at
 AGAIN = 4  # times that all labels are placed anew when some found no place; the last time leaders may cross lines
@@ -133,8 +134,9 @@ class Scene:
     def _lay_out(self) -> None:
         self.grid = self.around.grid(self.wanted, spots.NEAR)
         (x, y, _), w, about = self.grid, self.wanted, self.gap + APART
-        self.low = x.min(axis=1) - w.hw - about + 1j * (y.min(axis=1) - w.hh - about)
-        self.high = x.max(axis=1) + w.hw + about + 1j * (y.max(axis=1) + w.hh + about)
+        beside = self.gap + np.maximum(APART, 2.0 * IN_ROW * w.hh)
+        self.low = x.min(axis=1) - w.hw - beside + 1j * (y.min(axis=1) - w.hh - about)
+        self.high = x.max(axis=1) + w.hw + beside + 1j * (y.max(axis=1) + w.hh + about)
         self._leads: dict[tuple[int, bool, bool], tuple[_Ways, Points, Reals, Flags]] = {}
         self._bent: dict[int, tuple[_Ways, Points, Reals, Points]] = {}
         self._along: dict[tuple[int, int, Segment | None], tuple[_Ways, Points, complex]] = {}
@@ -318,7 +320,7 @@ class _Board:
             if cost < spots.COVER or not self._apart(i, spots.COVER, afield, cross and afield):
                 self._put(i, k)
         # leave alone who is in nobody's way; then the most constrained label chooses first
-        self.down |= self._touching(APART, 0.0).sum(axis=1) == 1
+        self.down |= self._close().sum(axis=1) == 1
         free, rest = (self.cost < spots.COVER).sum(axis=1), (~self.down).nonzero()[0]
         for i in rest[np.lexsort((rest, free[rest], -self.wanted.priority[rest]))].tolist():
             self._put(i, self._best(i)[1])
@@ -390,8 +392,8 @@ class _Board:
         labels: Numbers = near.nonzero()[0]
         return labels
 
-    def _beside(self, i: int, x: Reals, y: Reals, near: Numbers) -> tuple[Flags, Flags]:
-        """Tell, shape (K, N), which of the labels `near` label i would touch at x, y, and which are close to it.
+    def _beside(self, i: int, x: Reals, y: Reals, near: Numbers) -> tuple[Flags, Reals]:
+        """Tell, shape (K, N), which of the labels `near` label i would touch at x, y, and what others cost, shape (K,).
 
         Two letters side by side read as one word, one over another as a fraction.
         """
@@ -399,7 +401,10 @@ class _Board:
         wide, high = w.hw[near] + (w.hw[i] + self.gap - spots.SLACK), w.hh[near] + (w.hh[i] + self.gap - spots.SLACK)
         across, up = abs(x[:, None] - self.now_x[near]), abs(y[:, None] - self.now_y[near])
         over = (across < np.maximum(w.hw[near], w.hw[i])) & (up < high + APART)
-        return (up < high) & (across < wide), (up < high) & (across < wide + APART) | over
+        low = np.minimum(w.hh[near], w.hh[i])
+        close, row = (up < high) & (across < wide + APART) | over, (up < low) & (across < wide + 2.0 * IN_ROW * low)
+        cost: Reals = np.where(close, spots.ONE, spots.ROW * row).sum(axis=1)
+        return (up < high) & (across < wide), cost
 
     def _among(self, i: int) -> tuple[Reals, Flags, Numbers]:
         """Return what places of label i cost among the others, which of these it would touch there, who they are."""
@@ -407,9 +412,7 @@ class _Board:
         if not near.size:
             return self.cost[i], np.zeros((len(self.cost[i]), 0), dtype=bool), near
         touched, close = self._beside(i, self.x[i], self.y[i], near)
-        cost = self.cost[i] + spots.COVER * touched.sum(axis=1)
-        cost += spots.ONE * close.sum(axis=1)
-        return cost, touched, near
+        return self.cost[i] + spots.COVER * touched.sum(axis=1) + close, touched, near
 
     def _best(self, i: int) -> tuple[float, int]:
         """Return the cost and the number of the best place of label i among the others."""
@@ -419,7 +422,7 @@ class _Board:
 
     def _read_as_one(self) -> list[int]:
         """Labels that stand close to another one, but for those set apart."""
-        close = self._touching(APART, 0.0) & self.down & self.down[:, None]
+        close = self._close() & self.down & self.down[:, None]
         labels: list[int] = (close.sum(axis=1) > 1).nonzero()[0].tolist()
         return [i for i in labels if i not in self.leaders and i not in self.angles]
 
@@ -427,7 +430,7 @@ class _Board:
         """Return what it costs label i among the others to stay where it is."""
         own, near = slice(i, i + 1), self._near(i, self.scene.low[i], self.scene.high[i])
         touched, close = self._beside(i, self.now_x[own], self.now_y[own], near)
-        return float(self.now[i] + spots.COVER * touched.sum() + spots.ONE * close.sum()) - spots.SLACK
+        return float(self.now[i] + spots.COVER * touched.sum() + close.sum()) - spots.SLACK
 
     def _put(self, i: int, k: int) -> None:
         self.now_x[i], self.now_y[i], self.now[i] = self.x[i, k], self.y[i, k], self.cost[i, k]
@@ -439,6 +442,15 @@ class _Board:
         touch: Flags = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + self.gap + apart - slack
         touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + self.gap + apart - slack
         return touch
+
+    def _close(self) -> Flags:
+        """Tell, shape (L, L), which labels may be read as one: close to one another, or in a row."""
+        w = self.wanted
+        low = np.minimum(w.hh[:, None], w.hh)
+        row: Flags = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + self.gap + 2.0 * IN_ROW * low
+        row &= abs(self.now_y[:, None] - self.now_y) < low
+        row |= self._touching(APART, 0.0)
+        return row
 
     def in_trouble(self) -> list[int]:
         """Labels that cover something or touch another label."""
@@ -570,8 +582,7 @@ class _Board:
         """Return what it costs that label i stands on leaders close to others `near`, or these cross other leaders."""
         at, head, start, way = leads
         _, close = self._beside(i, at.real, at.imag, near)
-        cost: Reals = spots.ONE * close.sum(axis=1) + self._across(start + spots.TOUCH * way, head)
-        return cost
+        return close + self._across(start + spots.TOUCH * way, head)
 
     def _across(self, start: Points, head: Points) -> Reals:
         """Return what it costs that leaders, or parts of them, cross other leaders."""

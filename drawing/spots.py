@@ -27,6 +27,7 @@ Segment: TypeAlias = tuple[complex, complex]
 COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0, 1.5, 1.0, 1.5, 4.0, 120.0
 CLOSE = 6.0  # for each mm that something is nearer than it should be to leave no doubt
 ONE = 15.0  # for each letter with which a label reads as one word or as a fraction
+ROW = 5.0  # for each letter before or behind it on one line, so near that both may be read as one
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
 BARE = 2.5  # mm around a label: a thin line nearer than this looks like a bar over or under the letter
 DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name

@@ -306,6 +306,21 @@ def test_letters_read_neither_as_one_word_nor_as_a_fraction() -> None:
     assert close <= letters / 200
 
 
+def test_letters_on_one_line_leave_room_for_another_one_between_them() -> None:
+    letters, near = 0, 0
+    for seed in range(40):
+        requests, obstacles = random_scene(seed, labels=20, strokes=12)
+        labels = place(requests, obstacles, GAP)
+        upright = [r for r in requests if r.name not in labels.angles]
+        boxes, letters = shapely.bounds(boxes_of(upright, labels)), letters + len(upright)
+        size, (low, high) = boxes[:, 2:] - boxes[:, :2], (boxes[:, :2], boxes[:, 2:])
+        shared = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)
+        row = shared[..., 1] > 0.5 * np.minimum(size[:, None, 1], size[:, 1])
+        near += int(np.triu(row & (shared[..., 0] > -1.2 * np.minimum(size[:, None, 1], size[:, 1])), 1).sum())
+    assert letters > 700
+    assert near <= letters / 50
+
+
 def velocity_plan(seed: int) -> tuple[list[Request], Obstacles]:
     """A pole, four absolute velocities and the relative ones between neighbours, as on a sheet."""
     r = random.Random(seed)
