@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from itertools import combinations, pairwise, product
+from itertools import combinations, pairwise, permutations, product
 from types import SimpleNamespace
 
 import numpy as np
@@ -468,6 +468,23 @@ def test_random_arms_that_make_small_angles_do_not_meet() -> None:
         assert all(shift.imag < 0.0 for shift in shifts.values())
         drawn = [(shifts.get(i, 0j), each.foot + shifts.get(i, 0j)) for i, each in enumerate(arms)]
         assert not any(crosses(one, other) for one, other in combinations(drawn, 2))
+
+
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some([("scheme-16-hay-baler", "0"), ("scheme-12-shaking-conveyor", "3"), ("scheme-20-press-automaton", "0")], 0),
+)
+def test_of_arms_side_by_side_the_shorter_ones_are_nearer_to_the_pole(task: str, variant: str) -> None:
+    view, pairs = Linkage(task, variant).sheet["lever"], 0
+    (pole,) = (ring.centre for ring in view.nodes if ring.path[-1][1] == "lever.p")
+    every = [s.points for s in view.strokes if s.path and s.path[-1][0] == "arm" and len(s.points) == 2]
+    arms = [min((ends, ends[::-1]), key=lambda ends: abs(ends[0] - pole)) for ends in every]
+
+    for (a, b), (c, d) in permutations(arms, 2):
+        if abs(b - a) < abs(d - c) - 1.0 and abs(math.degrees(cmath.phase((d - c) / (b - a)))) < 12.0:
+            pairs += 1
+            assert abs(a - pole) < abs(c - pole)
+    assert pairs
 
 
 # Forces of very different size on one plan: the small ones stand in an inset, enlarged, and can be measured there.

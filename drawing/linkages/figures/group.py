@@ -162,18 +162,25 @@ class Sketch:
         self._barred.setdefault(_place(at), []).extend(directions)
 
     def shifts(self, pole: complex, arms: Sequence[_Arm], middle: complex, past: int = 1) -> Mapping[int, complex]:
-        """Return by how much arms about a point are moved along the lines of their forces: as far as no force lies."""
+        """Return by how much arms about a point are moved along the lines of their forces: as far as no force lies.
+
+        Of those side by side each is moved farther than shorter ones, wherever these have room.
+        """
         style, rays = self.scene.style, [*self._barred.get(_place(pole), ()), *rays_of(pole, self.strokes)]
-        shifts = dict(_staggered(pole, arms, middle, style, rays, past))
-        for i, arm in enumerate(arms):
-            if abs(arm.foot - pole) < LEAST:
+        least, settled = _staggered(pole, arms, middle, style, rays, past), dict[int, float]()  # by how many steps
+        shifts = dict[int, complex]()
+        for reach, i in sorted((abs(arm.foot - pole), i) for i, arm in enumerate(arms)):
+            if reach < LEAST:
                 continue
-            step = outward(arm, pole, middle) * STEP * style.text
-            others = [*self._arms, *((pole + by, arms[k].foot + by) for k, by in shifts.items() if k != i)]
-            tries = (shifts.get(i, 0j) + k * step for k in range(TRIES))
-            shifts[i] = next(
-                (by for by in tries if not self._upon(pole + by, arm.foot + by, others)), shifts.get(i, 0j)
-            )
+            way, step = (arms[i].foot - pole) / reach, outward(arms[i], pole, middle) * STEP * style.text
+            beside = (k for k in settled if (way.conjugate() * unit(arms[k].foot - pole)).real > CLOSE)
+            begin = max((settled[k] + 1.0 for k in beside), default=0.0)
+            begin = max(begin, abs(least.get(i, 0j) / step))
+            taken = [*self._arms, *((pole + by, arms[k].foot + by) for k, by in shifts.items())]
+            tries = (begin + k for k in range(TRIES))
+            free = (k for k in tries if not self._upon(pole + k * step, arms[i].foot + k * step, taken))
+            settled[i] = next(free, begin)
+            shifts[i] = settled[i] * step
         return {i: by for i, by in shifts.items() if by}
 
     def _upon(self, a: complex, b: complex, arms: Sequence[Stroke]) -> bool:
