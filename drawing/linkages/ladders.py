@@ -32,7 +32,7 @@ PARTS = {
 }
 # moments on the lever of one group that one page holds; times as long plans are at least on one page where groups or
 # moments are more: else two pages have larger plans, and room for their letters
-FEW, CROWDED = 8, 1.65
+FEW, CROWDED = 8, 1.8
 HUNG = 17.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 PROPORTION = 2.5  # times as large as the velocity plan that a task fixes its lever and its forces may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
@@ -44,11 +44,11 @@ MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "simi
 MOTION, POLYGON = (25.0, 48.0), (23.0, 48.0)  # plans of motion, and of forces
 MECHANISM, GROUP = (40.0, 56.0), (56.0, 90.0)
 AROUND_LEVER = (41.0, 70.0), (41.0, 105.0)  # of few moments, and of more
-GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
+GROUPS = {"RRP": (64.0, 100.0), TRIAD: (62.0, 142.0)}  # beside a slider, about a special point
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
 HEADING, WIDER, WIDEST = (72.0, 42.0), (84.0, 42.0), (140.0, 42.0)  # of plans of motion, of forces, of the lever
 # a slider, the driver; of insets, for each force that would be a point, of so many at most
-APART, CRANKS, INSET, TOGETHER = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (58.0, 80.0), 8
+APART, CRANKS, INSET, TOGETHER = (66.0, 100.0), ((58.0, 64.0), (82.0, 104.0)), (58.0, 80.0), 8
 RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing stands on the mechanism
 SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
 ON_AXIS = 0.3  # tangent of the angle at which a pivot is seen from a slider that runs on its axis to there
@@ -59,7 +59,7 @@ POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is 
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 17000.0, 1500.0, 12500.0, 3600.0
 TEXTS = {"velocity": 3000.0, "acceleration": 3000.0, "forces": 4200.0, "lever": 1800.0}
 TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
-MOMENTS = {"RRR": 16000.0, "RPR": 3000.0, TRIAD: 50000.0}
+MOMENTS = {"RRR": 16000.0, "RPR": 16000.0, TRIAD: 50000.0}
 
 
 def first_scales(
