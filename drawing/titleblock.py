@@ -22,6 +22,7 @@ T, t = Pen.MAIN, Pen.THIN
 CAPTION = (2.5,)
 UNDER = 3.7  # mm from the frame down to the words under it
 SIDE, EDGE = 1.0, 0.65  # clear of the lines of the cell, mm; half of the widest line is 0.4
+BESIDE = 0.3  # of their height, what letters keep clear of the lines beside them where smaller ones would do
 CLEAR = 0.45  # what the ink of a high or deep letter may leave of it
 PITCH = 1.5  # from baseline to baseline, in heights of a capital
 FALL = 0.3  # of p and y below the baseline, in heights of a capital
@@ -324,7 +325,7 @@ def _fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "m
         return []
     wide, high = cell[2] - cell[0] - 2 * SIDE, cell[3] - cell[1]
     for height in heights:
-        lines = _wrapped(words, height, wide)
+        lines = _wrapped(words, height, cell[2] - cell[0] - 2 * max(SIDE, BESIDE * height))
         if lines and _fits(lines, height, high):
             return _placed(lines, cell, height, anchor, name)
     height = heights[-1]

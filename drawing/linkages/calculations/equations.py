@@ -573,6 +573,8 @@ def _similarity(scene: Scene, step: Step) -> Lines:
         return []
     a, b, s = map(words.mark, (start, end, step.name))
     ab = segment(scene, f"{a}{b}", step.plan, scene.span(start, end, step.plan))
+    if positive(first) == positive(second):  # on the other side, as far away
+        return [(f"{a}{s} = {a}{b} = {ab.told} {words.unit(words.display.paper)}",)]
     ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
     edge = scene.reading.between(start, step.name)
     drawn = None if edge is None else scene.quantities.get(edge.name)
