@@ -49,7 +49,7 @@ NUMERALS = [
     tens + one for tens in ("", "X", "XX", "XXX") for one in ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
 ]
 NUMERALS.remove("V")
-UNNUMBERED = NUMERALS[6:]  # of the details of a figure as long as it has no number: room for those that come then
+UNNUMBERED = NUMERALS[2:]  # of the details of a figure that has no number: shelves are as long as VIII needs
 _WORD = re.compile("[IVX]+")
 BROKEN = 0.5  # mm between a letter and a line broken at it
 STRUCK = 0.15  # mm between a letter and a thin line that seems to run through it
