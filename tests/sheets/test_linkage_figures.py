@@ -487,6 +487,21 @@ def test_of_arms_side_by_side_the_shorter_ones_are_nearer_to_the_pole(task: str,
     assert pairs
 
 
+@pytest.mark.parametrize(
+    ("task", "variant", "figure"),
+    some([("scheme-13-toggle-press", "0", "group_45"), ("scheme-11-slotter", "0", "group_45")], 0),
+)
+def test_no_arm_runs_along_a_side_of_a_block(task: str, variant: str, figure: str) -> None:
+    view = Linkage(task, variant).sheet[figure]
+    links = [s for s in view.strokes if s.path and s.path[-1][0] == "link" and len(s.points) > 4]
+    sides = shapely.MultiLineString([_drawn(block) for block in links]).buffer(0.2 * STYLE.label)
+    arms = [s for s in view.strokes if s.path and s.path[-1][0] == "arm" and len(s.points) == 2]
+
+    assert links
+    assert arms
+    assert max(shapely.length(sides.intersection(_drawn(arm))) for arm in arms) < 0.9 * STYLE.label
+
+
 # Forces of very different size on one plan: the small ones stand in an inset, enlarged, and can be measured there.
 NUMERALS = ("I", "II", "III", "IV", "VI", "VII")  # V is a velocity
 INSETS = [

@@ -184,10 +184,10 @@ class Sketch:
         return {i: by for i, by in shifts.items() if by}
 
     def _upon(self, a: complex, b: complex, arms: Sequence[Stroke]) -> bool:
-        """Whether a line runs along a force or one of these arms, or close beside one of them."""
+        """Whether a line runs along a force, a side of a block, or one of these arms, or close beside one of them."""
         letter, way = self.scene.style.label, unit(b - a)
         beside = [(c, d) for c, d in arms if abs(cross(way, unit(d - c))) < ALONGSIDE]
-        for strokes, apart in (([*self._lying, *arms], 0.25), (beside, BESIDE)):
+        for strokes, apart in (([*self._lying, *self._edges(), *arms], 0.25), (beside, BESIDE)):
             along = shapely.intersection(shapely.buffer(_as_lines(strokes), apart * letter), lines([a], [b])[0])
             if (shapely.length(along) > 0.9 * letter).any():
                 return True
@@ -270,11 +270,12 @@ class Sketch:
             lies |= shapely.crosses(around[:, None], whole).any(axis=0)
         return [room - float(on) for room, on in zip(rooms.tolist(), lies.tolist(), strict=True)]
 
-    def _edges(self, at: complex) -> list[Stroke]:
-        """Return the sides of the blocks that do not hold a point."""
+    def _edges(self, at: complex | None = None) -> list[Stroke]:
+        """Return the sides of the blocks, or of those that do not hold a point."""
         sides = list[Stroke]()
-        blocks = (block for figure in self.figures for block in figure.blocks)
-        for block in (own for own in blocks if (away := abs(at - own.at)) > NEAR and away > own.rim(unit(at - own.at))):
+        for block in (block for figure in self.figures for block in figure.blocks):
+            if at is not None and ((off := at - block.at) == 0 or abs(off) <= max(NEAR, block.rim(unit(off)))):
+                continue
             x, y = block.u * block.size[0] / 2, 1j * block.u * block.size[1] / 2
             corners = [block.at + x + y, block.at - x + y, block.at - x - y, block.at + x - y]
             sides += zip(corners, [*corners[1:], corners[0]], strict=True)
