@@ -48,6 +48,7 @@ LATE, FARTHER = 2e-3, 0.1  # parts of a page that it costs that a text is a page
 EVENER = 0.01  # the same, for the sake of even pages
 AHEAD = 0.05  # of what moves a page ahead for a last one with texts alone, as a gain
 PIECES = 3  # rows or lines at least on each page
+SHORT = 10  # rows, with the head, of a table that stays whole
 
 
 def on_a_page(
@@ -488,7 +489,7 @@ class _Parting:
                 elif not any(i in spans[number] for number in range(min(a, b) + 1, max(a, b))):
                     count = page[i][1] - page[i][0]
                     some = range(count, 0, -1) if self.plain else sorted({round(part * count) for part in PARTS})
-                    if self.views[i].name not in whole:
+                    if self.views[i].name not in whole and not 0 < len(self.views[i].rows) <= SHORT:
                         yield from ((a, b, {i: n}) for n in some if PIECES <= n <= count - PIECES)
                     yield a, b, {i: count}
 

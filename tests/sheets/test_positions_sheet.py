@@ -37,6 +37,13 @@ def test_a_sheet_of_positions_measures_what_the_sweep_says_and_nothing_touches(t
     assert [fault for fault in overlaps(made) if "_positions" in fault or "course" in fault] == []
 
 
+@pytest.mark.parametrize("task", ["scheme-09-shaper", "scheme-13-toggle-press"])
+def test_the_short_table_of_extremes_stands_on_one_page(task: str) -> None:
+    tables = [view.name for page in pages_of(task) for view in read(page).views if view.name.startswith("extremes")]
+
+    assert tables == ["extremes"]
+
+
 def assert_plans(swept: Any, made: Sheet) -> None:
     """Assert that the vectors of all plans are to one scale factor what the sweep says of the positions."""
     for plan in PLANS:
