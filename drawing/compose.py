@@ -278,9 +278,9 @@ class Pages:
         if page == most:
             return self.tried(range(begin, count), page)
 
-        def worth(end: int) -> tuple[int, int]:  # none is half empty for what begins, nor the last one for another
+        def worth(end: int) -> tuple[int, int]:  # none is half empty for what begins, nor the last one for a part
             full = self.fill(range(begin, end), page) >= FULL
-            return (2 + (self.begins[end] if self.begins else FIGURE)) * full, -end if full else end
+            return (2 + (self.begins[end] if self.begins else FIGURE)) * full, -end if full and self.begins else end
 
         ends = (end for end in range(begin + 1, count) if self.fill(range(begin, end), page) <= 1.0)
         for end in sorted(ends, key=worth, reverse=True):

@@ -191,7 +191,7 @@ def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
     """Return the figure of a plan, and insets for the forces in it that would be points."""
     symbol, forces = solved.scale_of_plan[plan], role(plan).kind == FORCES
     around, least = (POLYGON, WIDER) if forces else (MOTION, HEADING)
-    alone = forces and plan.removeprefix("forces_") not in {group.name for group in solved.structure.groups}
+    alone = forces and plan not in {f"{FORCES}_{group.name}" for group in solved.structure.groups}
     goal = ALONE if alone else GOALS[role(symbol).of]
     yield Extent(symbol, _around(marks_on(solved, plan)), around, least, goal)
     shown = {name for name in solved.quantities if solved.shown_on.get(name) == plan}

@@ -205,12 +205,12 @@ def test_forces_on_one_line_stay_near_their_slider() -> None:
 
 def test_driver_with_a_short_crank_is_drawn_larger() -> None:
     """Its arms are measured on that figure: the equation of M_bal has its scale factor."""
-    of_sheet, read_back = drawn("scheme-01-compressor", FORCES, "en")
+    of_sheet, read_back = drawn("scheme-12-shaking-conveyor", FORCES, "en")
     view, mu = read_back["driver"], of_sheet.scales["driver"].mu
     crank = abs(view.point("A") - view.point("O"))
 
     assert crank > 40.0
-    assert abs(crank * mu - solve("scheme-01-compressor").solved.values["l_OA"]) < 1e-5 * mu
+    assert abs(crank * mu - solve("scheme-12-shaking-conveyor").solved.values["l_OA"]) < 1e-5 * mu
     assert any(t.string == f"μ_{{l1}} = {mu:g} m/mm" for t in view.of("heading"))
     texts = [
         line for name in read_back.names if name.startswith("equations_forces") for line in lines_of(read_back[name])
