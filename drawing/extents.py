@@ -120,9 +120,9 @@ class Extents:
         return [math.log(max(f.size) / (self.mu(f.symbol, {symbol: rung}) * f.goal)) for f in own]
 
     def part(self, symbol: str, rung: int) -> float:
-        """Return how large these figures are on the whole, as a part of their goals; none are as they should be."""
+        """Return how large these figures are on the whole, as a part of their goals; nothing where none has one."""
         off = self.off_goals(symbol, rung)
-        return math.exp(sum(off) / len(off)) if off else 1.0
+        return math.exp(sum(off) / len(off)) if off else 0.0
 
 
 def ways(

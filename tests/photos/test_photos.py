@@ -131,7 +131,7 @@ def test_what_was_drawn_is_read(honest: tuple[Report, dict[str, Truth]]) -> None
     assert {*truth} <= {*read}
     for name, one in truth.items():
         ends = [on_page(marked.sheets, end)[1] for end in (read[name].tail, read[name].tip)]
-        assert max(abs(ends[0] - one.tail), abs(ends[1] - one.tip)) < 1.0, name
+        assert max(abs(ends[0] - one.tail), abs(ends[1] - one.tip)) < 1.2, name
     assert {line.verdict for line in marked.lines} == {Verdict.RIGHT}
     assert marked.mark == 100.0
 
@@ -557,7 +557,7 @@ def test_corners_that_lie_badly_are_told() -> None:
 def test_a_marker_that_is_drawn_over_does_not_spoil_its_page() -> None:
     places, centre = stands(sheet_for(TASK, only=PLANS).pages[1]), 1000 - 1000j
     seen = {place.number: tuple(1000 + 10 * z.conjugate() for z in place.corners) for place in places}
-    moved = {**seen, places[2].number: tuple(z + 25 for z in seen[places[2].number])}
+    moved = {**seen, places[2].number: tuple(z + 30 for z in seen[places[2].number])}
 
     kept = without_worst(moved, places, centre)
 

@@ -567,3 +567,12 @@ def test_details_are_numbered_as_their_figures_come(task: str, variant: str) -> 
     assert entitled == marked
     assert {*marked} >= told
     assert marked
+
+
+@pytest.mark.parametrize("only", ["velocity", "acceleration", "position,velocity"])
+@pytest.mark.parametrize("task", some(bundled("mechanism"), 4, 16))
+def test_what_is_not_drawn_keeps_a_scale_factor_that_could_be_drawn(task: str, only: str) -> None:
+    found = kulman.solve(task, only=only)
+    size = found.solved.extent / found.scales["mu_l"].mu
+
+    assert 40.0 < size < 500.0, size
