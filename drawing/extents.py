@@ -120,9 +120,9 @@ class Extents:
         return [math.log(max(f.size) / (self.mu(f.symbol, {symbol: rung}) * f.goal)) for f in own]
 
     def part(self, symbol: str, rung: int) -> float:
-        """Return how large these figures are on the whole, as a part of their goals; nothing where none has one."""
-        off = self.off_goals(symbol, rung)
-        return math.exp(sum(off) / len(off)) if off else 0.0
+        """Return how large these figures are on the whole, as a part of their goals; of the first rung where none is."""
+        off, values = self.off_goals(symbol, rung), self.ladders[symbol].values
+        return math.exp(sum(off) / len(off)) if off else values[0] / values[rung]
 
 
 def ways(
