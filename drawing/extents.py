@@ -120,7 +120,7 @@ class Extents:
         return [math.log(max(f.size) / (self.mu(f.symbol, {symbol: rung}) * f.goal)) for f in own]
 
     def part(self, symbol: str, rung: int) -> float:
-        """Return how large these figures are on the whole, as a part of their goals; of the first rung where none is."""
+        """Return how large these figures are on the whole, as a part of their goals, else of the first rung."""
         off, values = self.off_goals(symbol, rung), self.ladders[symbol].values
         return math.exp(sum(off) / len(off)) if off else values[0] / values[rung]
 
