@@ -34,7 +34,7 @@ PARTS = {
 # moments are more: else two pages have larger plans, and room for their letters
 FEW, CROWDED = 8, 1.8
 HUNG = 17.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
-PROPORTION = 2.5  # times as large as the velocity plan that a task fixes its lever and its forces may be
+PROPORTION = 3.2  # times as large as the velocity plan that a task fixes its lever and its forces may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 40.0  # mm, the least length of a crank drawn apart: with twice of it, too, the driver has room on A4

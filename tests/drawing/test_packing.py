@@ -208,8 +208,8 @@ def test_several_pages_are_full(paper, most):
 
 @pytest.mark.parametrize(
     ("begins", "ends"),
-    [((), 7), ((0,) * 8 + (1,) + (0,) * 4, 8), ((0,) * 5 + (2, 0, 1) + (0,) * 5, 7), ((0,) * 5 + (2,) + (0,) * 7, 7)],
-    ids=["no fuller than it should be", "before a group", "no half empty page", "not even before a part"],
+    [((), 8), ((0,) * 8 + (1,) + (0,) * 4, 8), ((0,) * 5 + (2, 0, 1) + (0,) * 5, 7), ((0,) * 5 + (2,) + (0,) * 7, 7)],
+    ids=["as full as it can be", "before a group", "no half empty page", "not even before a part"],
 )
 def test_a_page_ends_where_something_begins_that_leaves_it_full(begins, ends):
     views = [(260, 180)] * 13
