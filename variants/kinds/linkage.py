@@ -354,7 +354,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         reading = read(solved.program)
         plans = (plan for plan in solved.program.plans if not is_at_point(plan))
         lengths = (role(step.name) for step in solved.program.which(("measure", "distance")))
-        found = {str(length): length.of for length in lengths if length.kind == "l"}
+        found = {str(length): f"{length.of}{length.about}" for length in lengths if length.kind == "l"}
         for edge in (edge for plan in plans for edge in reading.on(plan)):
             tail, tip = (letter(words, mark) for mark in (edge.tail, edge.tip))
             found.setdefault(role(edge.name).shown, f"{tail}{tip}")
