@@ -30,7 +30,6 @@ DEGREES = 180.0 / math.pi  # in a radian
 DIGITS = 4  # significant digits of a printed value
 ONE_WITH = 6  # digits of one input that is printed with more than the others
 MOST = 10  # more digits than that would be rounding noise
-ENOUGH = 3  # significant digits, which any segment that can be read should show
 FEWEST = 2  # of what small segments show
 HUNDREDTHS, LONG = 2, 100.0  # decimals of a segment, mm: a ruler reads no more; from where on it has one less
 AS_TOLD = 0  # instead of a number of digits: as many as the sheet prints elsewhere
@@ -326,14 +325,13 @@ def laid_off(words: Words, value: float, mu: float, known: str) -> str:
     """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
 
     It is as long as it is drawn, to the last digit that a ruler shows. It has one digit more than a ruler where a
-    number could not be told from others, and still one more where the number has three digits at most.
+    number could not be told from others, and is a hundredth of a mm off its drawing at most.
     """
     segment = abs(value) / mu
     usual, finest = ruler_decimals(words, segment), ruler_decimals(words, 0.0)
-    most = max(0.5 * 10.0**-usual, 10.0**-finest) * (1.0 + TIE)
-    few = segment >= READABLE and len(re.sub(r"\D", "", known).lstrip("0")) <= ENOUGH
-    for decimals in range(usual, finest + 1 + few):
+    for decimals in range(usual, finest + 1):
         here, step = rounded(segment, decimals), 10.0**-decimals
+        most = (0.5 if decimals < finest else 1.0) * step * (1.0 + TIE)
         beside = (here - step, here + step, rounded(number_of(known) / mu, decimals)) if decimals >= finest else ()
         for mm in (here, *beside):
             if abs(mm - segment) <= most and recomputes(mm * mu, known):
@@ -411,7 +409,7 @@ def _as_it_fits(
     """
     right, usual = law(*(one.value for one in inputs)), value_text(words, reckoned, most)
     usual = shortest(words, reckoned) if all(one.exact for one in inputs) else usual
-    ways = [usual, *(value_text(words, reckoned, digits) for digits in (DIGITS + 1, *range(DIGITS, 0, -1)))]
+    ways = [usual, *(value_text(words, reckoned, digits) for digits in (DIGITS + 1, *range(DIGITS, FEWEST, -1)))]
     if most == DIGITS:  # with more it is to be compared with what is found another way
         ways = [way for way in ways if abs(number_of(way) - right) <= SLACK * 10.0 ** -places_of(way)] or ways
     return next(filter(fits, ways), ways[0])

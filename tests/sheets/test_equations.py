@@ -273,13 +273,13 @@ def test_results_of_equations_have_the_digits_of_their_rows_and_of_the_lever() -
 
 
 def sheets() -> Iterator[tuple[str, str, str, str | None]]:
-    """All linkages, all variants, in two languages, as large as they are drawn by default and on A4."""
+    """All linkages, all variants, as large as they are drawn by default in two languages, and on A4."""
     for task in shelf("mechanism"):
         for variant in load_task(task).variants:
-            yield from ((task, variant, lang, paper) for paper in (None, "A4") for lang in ("uk", "en"))
+            yield from ((task, variant, lang, paper) for lang, paper in (("uk", None), ("en", None), ("uk", "A4")))
 
 
-@pytest.mark.parametrize(("task", "variant", "lang", "paper"), some(sheets(), 0, 4, 5, 10, 130, 403, 522, 850))
+@pytest.mark.parametrize(("task", "variant", "lang", "paper"), some(sheets(), 0, 4, 5, 130, 402, 522))
 def test_a_quantity_has_one_number_wherever_it_is_printed(
     task: str, variant: str, lang: str, paper: str | None
 ) -> None:
@@ -326,7 +326,9 @@ def test_forces_that_are_calculated_keep_their_digits_though_their_segments_are_
 
     printed = {name: printed_segment(scene, q)[-1] for name, q in forces.items()}
 
-    right = {name: pytest.approx(abs(forces[name].value or 0.0), rel=5e-3) for name, text in printed.items() if text}
+    told = {name: text for name, text in printed.items() if text}
+    few = {name for name, text in told.items() if len(re.sub(r"\D", "", text).lstrip("0")) <= 3}  # of few digits
+    right = {name: pytest.approx(abs(forces[name].value or 0.0), rel=2e-2 if name in few else 5e-3) for name in told}
     assert {name: float(printed[name]) for name in right} == right
     assert right
 
