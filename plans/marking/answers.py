@@ -25,9 +25,7 @@ class Answer:
     mu: float | None = None  # the scale factor as the student writes it: value per mm, or mm per unit
     value: float | None = None  # of a vector its magnitude
     direction: float | None = None  # radians from the x axis, of a vector
-    side: bool = (
-        False  # whether it is said by a word, such as left, which means all that is nearer to it than to others
-    )
+    side: bool = False  # whether a word says it, such as left: that means all that is nearer to it than to others
     sense: int | None = None  # of a scalar, said beside it: +1 counter-clockwise (or along the axis), -1 the other way
     plus: bool = False  # whether the value has one: without it a positive value says nothing of the sense
     rounded: float | None = None  # half of the last digit of the value as it was written
@@ -104,10 +102,8 @@ def readings(answer: Answer, values: tuple[float, ...], plain: bool) -> tuple[Sa
         sign = answer.sense if answer.sense else None
         if minus and free:
             opposite = None if turned is None else turned * -1.0
-            found += [
-                Said(size, sign, turned, answer.side),
-                Said(size, None if sign is None else -sign, opposite, answer.side),
-            ]
+            ways = (sign, turned), (None if sign is None else -sign, opposite)
+            found += [Said(size, *way, answer.side) for way in ways]
         else:
             positive = plain or (answer.plus and not free)
             written = -1 if minus else 1 if positive and size else None
