@@ -248,16 +248,13 @@ class _Making:
         common = work.case.block
         block = {**common, "student": who.student, "group": who.group or common.get("group", "")}
         case = replace(work.case, block=block)
-        drawn = dict[str, Sheet]()
-        for kind in self.kinds:
-            if (of := kind if kind in FOR_STUDENTS else "") not in drawn:
-                drawn[of] = self._drawn(work, case, of)
+        of = {kind: kind if kind in FOR_STUDENTS else "" for kind in self.kinds}
+        drawn = {own: self._drawn(work, case, own) for own in dict.fromkeys(of.values())}
         what = case.variant if len(self.asked) == 1 else f"{case.task.id} {case.variant}"
         stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
-        whole = {kind: drawn[kind if kind in FOR_STUDENTS else ""] for kind in self.kinds}
-        made = ((kind, self._files(work, case, of, kind, stem)) for kind, of in whole.items())
+        made = ((kind, self._files(work, case, drawn[own], kind, stem)) for kind, own in of.items())
         files = {f"{self.folder(kind)}{name}": data for kind, own in made for name, data in own}
-        told = next(drawn[of] for of in ("", HANDOUT, CARD) if of in drawn).warnings
+        told = next(drawn[own] for own in ("", HANDOUT, CARD) if own in drawn).warnings
         notes = tuple(warning.text(self.spoken) for warning in told)
         return Outcome(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
