@@ -4,6 +4,7 @@ import cmath
 import itertools
 import math
 import random
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -290,33 +291,34 @@ def test_a_label_on_a_leader_does_not_read_as_one_word_with_another() -> None:
     assert close <= leads / 20
 
 
+def upright_pairs(labels: int, strokes: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Sizes of the upright letters of scenes, shape (N, 2), and what each two share across and up; less is a gap."""
+    for seed in range(40):
+        requests, obstacles = random_scene(seed, labels=labels, strokes=strokes)
+        placed = place(requests, obstacles, GAP)
+        boxes = shapely.bounds(boxes_of([r for r in requests if r.name not in placed.angles], placed))
+        low, high = boxes[:, :2], boxes[:, 2:]
+        yield high - low, np.minimum(high[:, None], high) - np.maximum(low[:, None], low)
+
+
 def test_letters_read_neither_as_one_word_nor_as_a_fraction() -> None:
     letters, close = 0, 0
-    for seed in range(40):
-        requests, obstacles = random_scene(seed, labels=30, strokes=30)
-        labels = place(requests, obstacles, GAP)
-        upright = [r for r in requests if r.name not in labels.angles]
-        boxes, letters = shapely.bounds(boxes_of(upright, labels)), letters + len(upright)
-        size, (low, high) = boxes[:, 2:] - boxes[:, :2], (boxes[:, :2], boxes[:, 2:])
-        shared = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)  # negative: the gap between two
+    for size, shared in upright_pairs(labels=30, strokes=30):
         along = shared > 0.5 * np.minimum(size[:, None], size)
-        near = (along & (shared[..., ::-1] > -1.5)).any(axis=-1)
-        close += int(np.triu(near, 1).sum())
+        letters, close = (
+            letters + len(size),
+            close + int(np.triu((along & (shared[..., ::-1] > -1.5)).any(-1), 1).sum()),
+        )
     assert letters > 1000
     assert close <= letters / 200
 
 
 def test_letters_on_one_line_leave_room_for_another_one_between_them() -> None:
     letters, near = 0, 0
-    for seed in range(40):
-        requests, obstacles = random_scene(seed, labels=20, strokes=12)
-        labels = place(requests, obstacles, GAP)
-        upright = [r for r in requests if r.name not in labels.angles]
-        boxes, letters = shapely.bounds(boxes_of(upright, labels)), letters + len(upright)
-        size, (low, high) = boxes[:, 2:] - boxes[:, :2], (boxes[:, :2], boxes[:, 2:])
-        shared = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)
-        row = shared[..., 1] > 0.5 * np.minimum(size[:, None, 1], size[:, 1])
-        near += int(np.triu(row & (shared[..., 0] > -1.2 * np.minimum(size[:, None, 1], size[:, 1])), 1).sum())
+    for size, shared in upright_pairs(labels=20, strokes=12):
+        low = np.minimum(size[:, None, 1], size[:, 1])
+        row = (shared[..., 1] > 0.5 * low) & (shared[..., 0] > -1.2 * low)
+        letters, near = letters + len(size), near + int(np.triu(row, 1).sum())
     assert letters > 700
     assert near <= letters / 50
 
