@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from ...drawing.words import Words
 from ...drawing.writers import Files
-from ...plans.marking.answers import Line, Verdict
+from ...plans.marking.answers import QUARTER, Line, Verdict
 from ...plans.marking.key import behind
 from ...plans.mistakes.explaining import ANGLED
 from ...plans.mistakes.rules import Broken
@@ -297,7 +297,7 @@ class Report(Saved):
             value = f"{value.rpartition(' ')[0]} {reply.foreign[1]}" if reply.foreign[1] else value
             parts.append("+" * answer.plus + value)
         if answer.direction is not None:
-            parts.append(self._degrees(answer.direction) + " ± 45°" * answer.side)
+            parts.append(self._degrees(answer.direction) + f" ± {math.degrees(QUARTER):.0f}°" * answer.side)
         if answer.sense is not None:
             parts.append("+" if answer.sense > 0 else "−")
         return "; ".join(parts)
