@@ -131,6 +131,7 @@ def test_what_was_drawn_is_read(honest: tuple[Report, dict[str, Truth]]) -> None
     assert {*truth} <= {*read}
     for name, one in truth.items():
         ends = [on_page(marked.sheets, end)[1] for end in (read[name].tail, read[name].tip)]
+        # a point on a line is read where lines cross, of which a stroke may stop short
         assert max(abs(ends[0] - one.tail), abs(ends[1] - one.tip)) < 1.2, name
     assert {line.verdict for line in marked.lines} == {Verdict.RIGHT}
     assert marked.mark == 100.0
