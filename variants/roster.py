@@ -97,15 +97,26 @@ class Roster:
         Of several the one of the same group, then of the same variant, is meant. A name that nobody has so may be one
         with initials, without a patronymic, or with the surname last.
         """
-        for key in (*KEYS, ""):
-            said = _folded(getattr(who, key)) if key else ""
-            found = self._by_key.get((key, said), []) if said else []
-            found = found if key else [one for one in self.entries if _same_person(who.student, one.who.student)]
+        for found in self._called(who):
             grouped = [entry for entry in found if _folded(entry.who.group) == _folded(who.group)] or found
             for several in (found, grouped, [entry for entry in grouped if variant and entry.variant == variant]):
                 if len(several) == 1:
                     return several[0]
         return None
+
+    def _called(self, who: Who) -> Iterator[list[Entry]]:
+        """Go through the entries that a student may be, by each of the ways in turn."""
+        for key in KEYS:
+            said = _folded(getattr(who, key))
+            yield self._by_key.get((key, said), []) if said else []
+        yield [one for one in self.entries if _same_person(who.student, one.who.student)]
+
+    def stranger(self, who: Who, source: str) -> InputError:
+        """Return why a student, of whom answers come from `source`, is not found: who may be meant, if anybody is."""
+        several = next(filter(None, self._called(who)), [])
+        if several:
+            return InputError("marked-namesakes", text=quote(who.student), students=named(one.who for one in several))
+        return unknown("marked-stranger", who.student or source, (one.who.student for one in self.entries))
 
 
 def shared_books(students: Iterable[tuple[Who, str]]) -> Iterator[InputError]:

@@ -9,7 +9,7 @@ import json
 import os
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -130,14 +130,30 @@ class Check(Terms):
             for entry in self.roster.entries:
                 with suppress(KulmanError):  # whose data are none of the task: told where the student is marked
                     sheets.setdefault(sheet_id(self.request.task, entry.variant, entry.settings), []).append(entry)
-        return [self._named(one, sheets if often[one.source] > 1 else {}) for one in found]
+        named = [self._named(one, sheets if often[one.source] > 1 else {}) for one in found]
+        return named if warn is None else [*self._once(named, warn)]
+
+    def _once(self, found: Iterable[Answers], warn: Callable[[KulmanError], None]) -> Iterator[Answers]:
+        """Go through answers without copies: files of one student in which the same stands."""
+        kept = dict[tuple[object, str], Answers]()
+        for one in found:
+            entry = self.entry_of(one)
+            lines = {name: replace(line, place="") for name, line in one.lines.items()}
+            said = replace(one, source="", who=Who(), lines=lines, problems=()).digest
+            first = kept.setdefault((one.who if entry is None else id(entry), said), one)
+            if first is one or one.unread or one.source == first.source or (entry is None and one.who == Who()):
+                yield one
+            else:
+                warn(InputError("answers-twice", file=quote(one.source, SHOWN), first=quote(first.source, SHOWN)))
 
     def _named(self, answers: Answers, sheets: Mapping[str, Sequence[Entry]]) -> Answers:
         """Return answers with whose drawing it is: the name of the file is that of a student, or of a record book.
 
+        So it is of a file that cannot be read.
+
         In a stack the id of the sheet tells, where one student alone has it.
         """
-        if self.roster is None or (answers.drawn is None and not answers.photos):
+        if self.roster is None or (answers.drawn is None and not answers.photos and not answers.unread):
             return answers
         same = sheets.get(answers.about.get("sheet", "").upper(), ())
         stem = Path(answers.source).stem
@@ -145,7 +161,9 @@ class Check(Terms):
         names = [" ".join(re.split(r"[\s_-]+", name)).strip() for name in ways]
         known = (self.roster.find(Who(**{key: name})) for name in names for key in ("student", "book", "number"))
         entry = same[0] if len(same) == 1 else next(filter(None, known), None)
-        return replace(answers, who=Who(student=names[0]) if entry is None else entry.who)
+        if entry is None:
+            return answers if answers.unread else replace(answers, who=Who(student=names[0]))
+        return replace(answers, who=entry.who)
 
     def absent(self, answers: Iterable[Answers]) -> list[Entry]:
         """Return the students of the roster who have handed in nothing."""
@@ -375,12 +393,14 @@ def _each_marked(
     todo = [item for item in enumerate(answers) if item[0] not in found]
     with seldom_collected():  # keys are many objects
         for done in shared_out(job.begin, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
-            for number, student, result in ((*todo[place], made) for place, made in done):
-                if result is None:  # the student's answers have killed the process that marked them
-                    result = failed(student, job.terms.entry_of(student), InputError("process-died"), language)
-                elif journal:
-                    journal.note(names[number], result)
-                found[number] = result
+            for number, student, result in ((*todo[place], one) for place, one in done):
+                entry = job.terms.entry_of(student)
+                stranger = entry is None and job.terms.roster is not None
+                # where there is none, the student's answers have killed the process that marked them
+                made = result or failed(student, entry, InputError("process-died"), language)
+                found[number] = replace(made, stranger=stranger)
+                if journal and result:
+                    journal.note(names[number], found[number])
             advance(len(done), len(answers))
     return [found[number] for number in range(len(answers))]
 

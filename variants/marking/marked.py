@@ -203,17 +203,16 @@ def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str
     Raises
     ------
     InputError
-        The answers are for another task; the record book has no such digits; the student's row of the roster is wrong.
+        The answers are for another task; the record book has no such digits; the student's row of the roster is wrong;
+        there is a roster without the student, and nothing else tells the variant.
     """
     task, about, notes = terms.request.task, answers.about, list[KulmanError]()
     if other := _other_task(task, answers):
         raise InputError("marked-other-task", text=quote(other), task=quote(task.id))
     if entry is not None and entry.problem is not None:
         raise entry.problem
-    if terms.roster is not None and entry is None:
-        notes.append(
-            InputError("marked-stranger", text=quote(answers.who.student) if answers.who.student else answers.source)
-        )
+    stranger = terms.roster.stranger(answers.who, answers.source) if terms.roster and entry is None else None
+    notes += [stranger] if stranger else []
     written, said = about.get("task", ""), about.get("variant", "")
     if written and not written.isdigit() and written.casefold() != task.id.casefold():  # a number may be any task's
         notes.append(InputError("marked-task", text=quote(written), task=quote(task.id)))
@@ -228,6 +227,8 @@ def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str
     found = found or str(terms.request.variant or "") or (said if said in task.variants else "") or by_book()
     found = found or variant_of_id(task, about.get("sheet", "")) or ""
     if not found:
+        if stranger and len(task.variants) > 1:  # held against anybody's data, they would be wrong
+            raise stranger
         found = next(iter(task.variants))
         notes += [InputError("marked-no-variant", variant=quote(found))] if len(task.variants) > 1 else []
     if said and said != found:

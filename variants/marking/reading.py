@@ -552,7 +552,7 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Warn | None) -
     InputError
         The only file there is cannot be read, or any where nobody is told; there is none; the source prints no answers.
     """
-    inside, found = _found_files(names, task), list[Answers]()
+    inside, found = _found_files(names, task, warn), list[Answers]()
     for file in inside:
         try:
             of_source = file == _printed(task)
@@ -592,10 +592,10 @@ def stem_of(source: str) -> str:
     return re.sub(r"^[0-9]{3}-", "", Path(source).stem).rstrip("0123456789()_- .")
 
 
-def _found_files(names: Iterable[str], task: str) -> list[str]:
+def _found_files(names: Iterable[str], task: str, warn: Warn | None) -> list[str]:
     """Return the files that are meant: files as they are, all answers in a folder, all that a pattern fits.
 
-    The word `printed` means the answers that the source of a bundled task prints.
+    What else lies there is told of. The word `printed` means the answers that the source of a bundled task prints.
     """
     found: list[str] = []
     for name in names:
@@ -606,8 +606,12 @@ def _found_files(names: Iterable[str], task: str) -> list[str]:
                 raise InputError("answers-none-printed", task=quote(task))
         elif path.is_dir() or (not path.exists() and glob.has_magic(name)):
             within = map(str, path.iterdir()) if path.is_dir() else glob.glob(name)
-            tables = (file for file in within if (of := Path(file)).suffix.lower() in SUFFIXES and of.is_file())
-            inside = sorted(file for file in tables if not Path(file).name.startswith((".", "~$")))
+            seen = sorted(file for file in within if not Path(file).name.startswith((".", "~$")))
+            inside = [file for file in seen if (of := Path(file)).suffix.lower() in SUFFIXES and of.is_file()]
+            others = [Path(file).name for file in seen if file not in {*inside}]
+            if inside and others and warn:
+                listed = {"files": quote(", ".join(others), SHOWN), "known": ", ".join(SUFFIXES)}
+                warn(InputError("answers-others", file=quote(name, SHOWN), **listed))
         if not inside:
             raise InputError("answers-nowhere", file=quote(name, SHOWN), known=", ".join(SUFFIXES))
         found += inside

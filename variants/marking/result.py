@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from types import MappingProxyType
@@ -45,7 +45,7 @@ CERTAIN = 0.6  # the chance that two honest readings are the same is no more tha
 WIDEST = 2.0  # mm of spread
 BEST = 0.242  # 1/sqrt(2 pi e): density of a normal law at its deviation, at the deviation where it is largest
 ROUNDING = 1e-6  # mm
-OF = ("stranger", "task", "variant", "data", "data-other", "sheet", "sheet-variant")
+OF = ("stranger", "stranger-like", "namesakes", "task", "variant", "data", "data-other", "sheet", "sheet-variant")
 CONTRADICTS = {f"marked-{of}" for of in OF}  # keys of notes
 LISTS = ("mistakes", "notes", "reports", "plans", "absent", "perhaps", "contradicts")  # of a result
 
@@ -225,7 +225,8 @@ class Result:
 
     `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing; `perhaps` are
     mistakes that these answers do not tell from the others, `slips` that only the hand may have slipped; `contradicts`
-    what the answers say of student, task, variant or data that is not what the teacher has said.
+    what the answers say of student, task, variant or data that is not what the teacher has said; a `stranger` is in no
+    place of the roster.
     """
 
     source: str
@@ -246,6 +247,12 @@ class Result:
     perhaps: tuple[str, ...] = ()
     slips: bool = False
     contradicts: tuple[str, ...] = ()
+    stranger: bool = False
+
+    @property
+    def student(self) -> tuple[Who, str] | str:
+        """Who it is, namesakes told apart by their variants; the source where nobody is named."""
+        return (self.who, self.variant) if self.who != Who() else self.source
 
     @property
     def empty(self) -> bool:
@@ -363,10 +370,23 @@ def names_of(lines: Lines, language: str) -> list[str]:
     return found
 
 
+def twice(results: Iterable[Result]) -> dict[tuple[Who, str] | str, list[Result]]:
+    """Return those who have several marks, with them."""
+    found = dict[tuple[Who, str] | str, list[Result]]()
+    for result in results:
+        if result.mark is not None:
+            found.setdefault(result.student, []).append(result)
+    return {student: several for student, several in found.items() if len(several) > 1}
+
+
 def flags_of(lines: Lines, language: str) -> list[list[str]]:
-    """Return for each student what a teacher should check: too exact segments, and those shared with another one."""
-    said, names = texts(language), names_of(lines, language)
+    """Return for each student what a teacher should check: several marks, too exact segments, and shared ones."""
+    said, names, several = texts(language), names_of(lines, language), twice(marked_of(lines))
     found = [line.flags(language) if isinstance(line, Result) else [] for line in lines]
+    for line, flags in zip(lines, found, strict=True):
+        if isinstance(line, Result) and line.mark is not None and line.student in several:
+            others = (spoken(one.source, language) for one in several[line.student] if one is not line)
+            flags.append(said["flag.twice"].format(files=", ".join(others)))
     for pair in shared([line.segments if isinstance(line, Result) else {} for line in lines]):
         for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
             said_of = {"n": len(pair.names), "of": pair.of, "near": pair.near, "student": names[other]}
@@ -414,11 +434,14 @@ def class_rows(lines: Lines, language: str) -> Iterator[tuple[Cell, ...]]:
 
 
 def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell, ...]]:
-    """Go through the rows of a file that Moodle's gradebook imports: whose it is, the grade, no right number."""
-    said = texts(language)
+    """Go through the rows of a file that Moodle's gradebook imports: whose it is, the grade, no right number.
+
+    Who has several marks, or is not in the roster, has none there until the teacher has said which counts.
+    """
+    said, several = texts(language), twice(results)
     yield ("ID number", "Full name", "Email address", "Grade", "Feedback comments")
     for result in results:
-        if result.mark is not None:
+        if result.mark is not None and not result.stranger and result.student not in several:
             who = result.who
             counts = (f"{said[f'verdict.{name}']} {count}" for name, count in result.counts.items() if count)
             first = said["class.feedback_first" if result.first else "report.no_wrong"].format(symbol=result.first)
@@ -446,6 +469,12 @@ def class_lines(lines: Lines, language: str) -> Iterator[str]:
         told += ["; ".join(line.explained(language)), *flags, *notes]
         yield f"{name:{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
     yield from (said["class.all"].format(note=note) for note in of_all)
-    marks = [result.mark for result in results if result.mark is not None]
-    mean = f"{sum(marks) / len(marks) if marks else 0.0:.1f}".replace(".", sign)
-    yield said["class.summary"].format(n=len(results), marked=len(marks), mean=mean)
+    of_class = [line for line in lines if isinstance(line, Entry) or not line.stranger]
+    marked = [line for line in of_class if isinstance(line, Result) and line.mark is not None]
+    mean = sum(line.mark or 0.0 for line in marked) / max(len(marked), 1)
+    students = {line.student if isinstance(line, Result) else id(line) for line in of_class}
+    counts = {"n": len(students), "marked": len({line.student for line in marked})}
+    strangers = said["class.strangers"].format(n=len(lines) - len(of_class))
+    yield said["class.summary"].format(**counts, mean=f"{mean:.1f}".replace(".", sign)) + f"; {strangers}" * (
+        len(lines) > len(of_class)
+    )
