@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -28,7 +29,9 @@ from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile
 from kulman.variants.drawings.apart import handed_in
 from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.reading import _read_answers
+from kulman.variants.marking.wording import plain
 from kulman.variants.serving.safety import read_passwords
+from kulman.variants.shelf import bundled
 from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.spreadsheets.grid import Grid, letters
 from kulman.variants.tables import _harmless, _xlsx_bytes, csv_table
@@ -142,6 +145,24 @@ def test_no_two_lines_of_a_form_look_alike(tmp_path: Path, task: str, told: dict
     assert len(set(headings)) == len(headings) > 1
     assert len(set(labels.values())) == len(labels) > 20
     assert told.items() <= labels.items()
+
+
+@pytest.mark.parametrize("task", some(["nau-slider-crank", "madi-cam", *sorted(set(bundled()) - {"madi-cam"})], 2))
+def test_answers_may_be_named_as_the_sheet_shows_them(task: str) -> None:
+    """Forms of one's own had to say M_bal and omega_2: of M_ур it was told that there is none."""
+    asked = check(task, lang="ru").asked
+    shown = dict[str, set[str]]()
+    for language in LANGUAGES:
+        words = replace(solve(task, lang=language).words, language=language)
+        for name in asked.names:
+            shown.setdefault(plain(words.symbol(name)).replace(" ", ""), set()).add(name)
+    alone = {text: name for text, (name, *others) in shown.items() if not others and text != name}
+
+    understood = {text: asked.meant(text) for text in alone}
+
+    wrong = {text: name for text, name in understood.items() if name != alone[text]}
+    assert len(alone) > 10
+    assert wrong == {}
 
 
 @pytest.mark.parametrize(("name", "language"), some([("form.csv", "uk"), ("form.xlsx", "ru"), ("form.csv", "en")], 1))

@@ -16,10 +16,11 @@ from typing import NamedTuple
 from ...plans.marking.answers import nearest
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError
+from ...scales.names import latin
 from ...scales.numbers import quote, split_number, with_power
 from ...scales.scale import Display
 from ...scales.units import Unit, bounded, converted, unit
-from ..spreadsheets.grid import UNDERSTOOD, Grid, tidy
+from ..spreadsheets.grid import UNDERSTOOD, Grid, symbol, tidy
 
 NONE = frozenset(UNDERSTOOD["none"])
 CALCULATIONS = frozenset(UNDERSTOOD["calculation"])
@@ -87,7 +88,7 @@ class Asked:
     """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results.
 
     `others` are names of plans that are not marked now; answers to them are passed over. So are columns of a class over
-    what is `unasked`, such as what is given: its key has them.
+    what is `unasked`, such as what is given: its key has them. `symbols` are the names by what the sheet shows of them.
     """
 
     quantities: Mapping[str, Quantity]
@@ -95,6 +96,12 @@ class Asked:
     display: Display = field(default_factory=Display)
     others: frozenset[str] = frozenset()
     unasked: frozenset[str] = frozenset()
+    symbols: Mapping[str, str] = field(default_factory=dict)
+
+    def meant(self, text: str) -> str:
+        """Return the name of what is written by its name, or as the sheet shows it: `M_зр`, `ω_2`, `F_и3`, `VB`."""
+        name = latin(text)
+        return name if name in {*self.names} | self.others else self.symbols.get(folded(text), name)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -104,6 +111,15 @@ class Asked:
     def unit(self, name: str) -> str:
         """Return the unit in which a quantity is asked for."""
         return self.display.unit(self.quantities[name].unit)
+
+
+def folded(text: str) -> str:
+    """Return a symbol as plain letters and digits, the index of inertia in Latin.
+
+    >>> folded("F_и3"), folded("a^n_{BA}")
+    ('Fi3', 'anBA')
+    """
+    return symbol(text).replace("и", "i")
 
 
 def _known(written: str, wanted: Unit) -> Unit:

@@ -21,7 +21,7 @@ from ...plans.marking.key import Key, Question, answer_key, hanging_on
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
-from ...scales.errors import InputError, KulmanError, as_one
+from ...scales.errors import LANGUAGES, InputError, KulmanError, as_one
 from ...scales.names import all_known, latin, unknown
 from ...scales.numbers import SHOWN, quote, split_number
 from ...scales.scale import Display
@@ -31,7 +31,7 @@ from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, r
 from ..reader import syntax_fault
 from ..sheets import sheet_id
 from ..solution import Solution, solution_of
-from .cells import Asked, value
+from .cells import Asked, folded, value
 from .wording import plain, texts
 
 WORTH = {
@@ -456,7 +456,10 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
     figures, shown_on = solution.solved.scale_of_figure, solution.solved.shown_on  # of any variant
     scales |= {figures[shown_on[name]]: q.unit for name, q in quantities.items() if shown_on.get(name) in figures}
-    return Asked(quantities, scales, _display_of(solution))
+    words, names = [replace(solution.words, language=language) for language in LANGUAGES], (*quantities, *scales)
+    shown = [(folded(text), name) for name in names for text in (name, *(of.symbol(name) for of in words))]
+    often = Counter(text for text, _ in {*shown})
+    return Asked(quantities, scales, _display_of(solution), symbols={t: name for t, name in shown if often[t] == 1})
 
 
 def _display_of(solution: Solution) -> Display:

@@ -17,7 +17,7 @@ from ...plans.marking.answers import FREE, Answer
 from ...plans.marking.lines import Drawn
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written, as_one
-from ...scales.names import latin, unknown
+from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote, split_number
 from ...scales.units import UnitName, unit
 from ..crew import digest_of
@@ -129,7 +129,8 @@ def _read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn |
         if "name" in kinds and not kinds.keys().isdisjoint(PARTS):
             return [_form(grid, row, kinds, asked)]
         parts = ((column, quantity_part(text)) for column, text in enumerate(_with_greek(texts, asked)))
-        columns = {column: part for column, part in parts if part is not None and part[0] in asked.names}
+        meant = ((column, (asked.meant(part[0]), *part[1:])) for column, part in parts if part is not None)
+        columns = {column: part for column, part in meant if part[0] in asked.names}
         about = _first(map(about_kind, texts))
         if len(columns) > 1 or (columns and about):
             students = list(_class(grid, row, columns, about, asked, warn))
@@ -409,12 +410,12 @@ def _form_row(sheet: _Sheet, row: int, kinds: Mapping[str, int], columns: Column
     if tidy(text) in cells.CALCULATIONS:
         sheet.number(_Cell(row, of_value, text))
         return
-    name = latin(text)
+    name = asked.meant(text)
     filled = any(grid.text(row, kinds.get(part)) not in cells.NONE - {"-"} for part in PARTS)
     if not name or not filled or column_kind(name) == "name" or name in asked.others:
         return
     if name not in asked.names:
-        sheet.refuse(_Cell(row, own, name), unknown("quantity-unknown", name, asked.names))
+        sheet.refuse(_Cell(row, own, name), unknown("quantity-unknown", text, asked.names))
         return
     in_mu = sheet.filled(row, kinds.get("mu"))
     if name in asked.scales:

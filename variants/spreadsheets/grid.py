@@ -33,7 +33,7 @@ _ABOUT_LIKE: dict[str, re.Pattern[str]] = {
 ORDINALS = frozenset(UNDERSTOOD["ordinals"])  # over the numbers of rows
 _COMMA = re.compile("[,:]")  # before a unit without brackets
 # a column of a class: a quantity, a part of its answer, a unit
-_QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
+_QUANTITY = re.compile(r"(?P<name>[A-Za-z][\w^{}]*)(?:\.(?P<part>mm|dir|sense|mu))?")
 _BEFORE = {
     kind: "|".join(map(re.escape, sorted((*UNDERSTOOD["about"][kind], *more), key=len, reverse=True)))
     for kind, more in UNDERSTOOD["numbered"].items()
