@@ -29,6 +29,7 @@ THREE = 3  # digits that a number has at the least where nobody knows how it was
 LAYING = 0.6  # part of the tolerance in mm by which a segment that is laid off and read again may miss
 READ_TO = 0.05  # part of the tolerance in mm to which a segment is read at best
 MOST = 30  # numbers that anybody puts into a calculator; a law of more is a table or a curve
+COARSEST = 0.05  # part of a value by which two digits may be rounded; one, 1 for 1.333, is too coarse for more
 FEWEST = 2  # vectors of a plan that tell how large the student's own is
 ASIDE = 1e-9  # part of a vector that is rounding
 LAID = ("lay", "back")
@@ -243,7 +244,8 @@ class Allowance:
         if step is None or (right and any(map(self.faulty, self.inputs(step)))):
             return self.by_hand(name, value)
         answer = self.answers[name]
-        last = answer.rounded if answer.rounded is not None else _half_digit(answer.value or 0.0)
+        coarsest = COARSEST * abs(value)
+        last = _half_digit(answer.value or 0.0) if answer.rounded is None else min(answer.rounded, coarsest)
         # a calculator's result may differ by half a per cent, or by what all roundings come to
         return self._marked(name, float(max(ROUNDED * abs(value), last + self._inherited(name, step))))
 

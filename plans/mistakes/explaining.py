@@ -47,6 +47,7 @@ BEAM = 4  # chains of mistakes that are made longer
 LOCAL = 16  # mistakes at one line that are looked at closely
 LINES = 3  # lines that stay wrong to which a mistake more is sought
 DEPTH = 4  # mistakes of one student that are named
+READ_ELSEWHERE = frozenset(("M21", "M22"))  # another segment is taken
 TELLING = 3  # senses that tell that all are opposite
 # what is opposite: senses of turning, and directions, counted the other way or from the other end; the simplest first
 OPPOSITE: tuple[tuple[bool, Callable[[float], float] | None], ...] = (
@@ -211,8 +212,16 @@ class _Search:
         """
         if len(candidate.mistakes) > len(candidate.explained):
             return False
+        if candidate.ids <= READ_ELSEWHERE and all(map(self._well_read, candidate.explained)):
+            return False
         left = sum(not self.faulty.get(name, 0.0) <= CLEAR for name in candidate.left)
         return len(candidate.explained) > left or (len(candidate.explained) == left and candidate.misses <= CLOSELY)
+
+    def _well_read(self, name: str) -> bool:
+        """Whether the segment of a line is right, and only what was made of it wrong."""
+        line = self.marking[name]
+        said = line.answer is not None and line.answer.mm is not None
+        return said and line.verdict in (Verdict.ARITHMETIC, Verdict.SCALE)
 
     def _opposed(self) -> Candidate | None:
         """Return that all senses are opposite, and so many that this is no chance; None where they are not."""

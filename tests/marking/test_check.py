@@ -85,6 +85,58 @@ def test_an_arm_of_the_lever_may_stand_in_both_cells_in_millimetres(tmp_path: Pa
     assert not report.marked.answers.problems
 
 
+@pytest.mark.parametrize(("scale", "told"), [("mu_h", True), ("mu_V", False)])
+def test_arms_are_marked_by_the_scale_factor_that_they_fit_where_the_lever_has_none(
+    tmp_path: Path, scale: str, told: bool
+) -> None:
+    """Who wrote mu_V alone, and measured arms on the sheet's lever, had five right arms wrong."""
+    key, solution = check(TASK, "3"), solve(TASK, "3")
+    arms = {q.name: float(q) / solution.scales[scale].mu for q in solution.values() if q.name.startswith("h_lever_F")}
+    rows = "mu_V;;0,1;;;\n" + "".join(f"{name};{abs(mm):.1f};;;;\n" for name, mm in arms.items())
+
+    report = key.mark(read(tmp_path, rows, "3"))
+
+    assert {str(line.verdict) for line in report.marked.marking.answered} == {"right"}
+    assert any(note.key == "marked-scale" for note in report.marked.notes) is told
+
+
+@pytest.mark.parametrize(
+    ("task", "cell", "verdict"),
+    [
+        ("madi-gear", "alpha_w;;;26°39′;;", "right"),
+        ("madi-gear", "alpha_w;;;26° 40';;", "right"),
+        ("madi-gear", "alpha_w;;;26°09′;;", "wrong"),
+        ("madi-gear", "u;;;4:3;;", "right"),
+        ("madi-gear", "u;;;1,3;;", "right"),
+        ("madi-gear", "u;;;1;;", "wrong"),
+        ("madi-gear", "epsilon_alpha;;;1;;", "wrong"),
+        ("karpenko-hoist", "T_1;;;0,1;с;", "wrong"),
+        ("karpenko-hoist", "T_1;;;0,087;с;", "right"),
+    ],
+)
+def test_minutes_of_angle_and_ratios_are_numbers_and_one_digit_is_too_coarse(
+    tmp_path: Path, task: str, cell: str, verdict: str
+) -> None:
+    """Degrees and minutes were degrees of an unknown unit, 4:3 was 4; and 1 was right for 1.333, 0.1 for 0.0875."""
+    variant = "V03" if task == "karpenko-hoist" else "17"
+
+    report = check(task, variant).mark(read(tmp_path, cell + "\n", variant, task))
+
+    assert [str(line.verdict) for line in report.marked.marking.answered] == [verdict]
+    assert not report.marked.answers.problems
+
+
+@pytest.mark.parametrize("value", ["3,35 мм/с", "4"])
+def test_who_has_the_right_segment_has_copied_none(tmp_path: Path, value: str) -> None:
+    """Of a wrong unit beside a right segment it was told that the segment comes from a neighbouring position."""
+    rows = f"mu_V;;0,1;;;\nV_A;56,5;;5,65;;\nV_BA;49;;4,9;;\nV_B;33,5;;{value};;\nV_S2;44;;4,4;;\n"
+
+    report = check(TASK, "4").mark(read(tmp_path, rows, "4"))
+
+    assert "M22" not in {one for candidate in report.marked.candidates for one in candidate.ids}
+    assert str(report.marked.marking["V_B"].verdict) in ("scale", "arithmetic")
+
+
 def rubric(tmp_path: Path, text: str) -> str:
     file = tmp_path / "rubric.toml"
     file.write_text(text, encoding="utf-8")

@@ -39,6 +39,10 @@ _WIDE = str.maketrans("＋－", "+-")
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"[^0-9.,]*+[0-9 \u00a0\u2009\u202f]*+[.,]([0-9]+)")
 _ANGLE = re.compile(r"[0-9]{1,9}(?:[.,][0-9]{1,9})?")  # in degrees
+_SEXAGESIMAL = re.compile(
+    r"([+\-−–]?[0-9]{1,4})\s*[°º]\s*([0-5]?[0-9])\s*['’′]?\s*(?:([0-5]?[0-9])\s*(?:[\"″]|''|′′))?"
+)
+_QUOTIENT = re.compile(r"(?<=[0-9])\s*:\s*(?=[0-9])")  # of whole numbers, 4:3
 _RATIO = re.compile(r"(?:[MМ]\s*)?([0-9]{1,9}(?:[.,][0-9]{1,9})?)\s*:\s*([0-9]{1,9}(?:[.,][0-9]{1,9})?)")  # 1:2,5
 MM, DEGREE = unit("mm"), unit("deg")
 NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
@@ -170,7 +174,7 @@ def signed(text: str) -> str:
 
     That it is told to be rounded, `≈ 28.79`, says nothing more.
     """
-    text = text.translate(_WIDE).lstrip("≈~∼ ")
+    text = in_degrees(text.translate(_WIDE).lstrip("≈~∼ "))
     if text[:1] in "+-−–" and text[1:2].isspace():
         return text[0] + text[1:].lstrip()
     if not text.endswith(_BEHIND):
@@ -178,6 +182,19 @@ def signed(text: str) -> str:
     behind = next(sign for sign in _BEHIND if text.endswith(sign))
     number = text.removesuffix(behind).strip()
     return behind.strip("()") + number if number[:1].isdigit() else text
+
+
+def in_degrees(text: str) -> str:
+    """Return an angle in degrees and minutes as one in degrees, to about a minute; any other text as it is.
+
+    >>> in_degrees("26° 39′"), in_degrees("-5°07'30\""), in_degrees("26,65°")
+    ('26.65°', '-5.125°', '26,65°')
+    """
+    found = _SEXAGESIMAL.fullmatch(text.strip())
+    if found is None:
+        return text
+    whole, minutes, seconds = found.groups()
+    return f"{whole}.{f'{int(minutes) / 60.0 + int(seconds or 0) / 3600.0:.{4 if seconds else 2}f}'[2:]}°"
 
 
 def segment(text: str, written: str) -> tuple[float, int]:
@@ -222,13 +239,14 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
 
     What is no number is refused, and an unknown unit, or one that does not fit the quantity.
     """
-    number, rest = split_number(text)
+    number, rest = split_number(_QUOTIENT.sub("/", text))
     own = unit(asked.quantities[name].unit)  # SI, but of a scale factor SI per millimetre
     return own.from_si(converted(number, _known(rest or written or asked.unit(name), own), own, NOTHING))
 
 
 def rounded(text: str, value: float | None) -> float | None:
     """Return half of the last digit of a number as written, in the unit of its value; None where it has none."""
+    text = _QUOTIENT.sub("/", text)
     number, rest = split_number(text)
     written = with_power(text.strip()).lower()
     mantissa, _, power = written[: len(written) - len(rest)].strip().replace(",", ".").partition("e")
@@ -300,6 +318,7 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
 
     What is neither an angle in degrees nor a sense is refused, and two senses; of a vector what is no angle.
     """
+    text = in_degrees(text)
     if vector and _ANGLE.fullmatch(text):
         return converted(split_number(text)[0], DEGREE, DEGREE), None
     word = tidy(text)

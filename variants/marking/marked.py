@@ -14,6 +14,7 @@ from ...plans.marking.drawn import Recognised
 from ...plans.marking.key import Key
 from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
+from ...plans.names import LEVER
 from ...scales.errors import InputError, KulmanError, Spoken
 from ...scales.kept import Kept, kept_in
 from ...scales.numbers import SHOWN, quote
@@ -24,10 +25,11 @@ from ..roster import Digits, Entry, Roster, variant_of_book
 from ..sheets import same_id, sheet_id, task_of_id, variant_of_id
 from ..shelf import bundled
 from ..task import LocatedError, Task
-from .cells import Asked
+from .cells import Asked, Mu
 from .keyed import DATA, PLANS, Keyed, Rubric, data_said, is_arm_of_lever, keyed
 from .reading import Answers, Reply, apart
 from .seen import Seen, measured, seen
+from .wording import plain
 
 if TYPE_CHECKING:
     from ..photos.reading import Sheets
@@ -337,6 +339,8 @@ class Desk:
             on_drawing = seen(answers.drawn, key, others, lambda other: self.keyed(other, settings, own=False))
             answers, told = measured(answers, key, on_drawing)
             notes += told
+        answers, told = _as_on_the_sheet(answers, key)
+        notes += told
         found = tuple(_misfits(answers, key))
         given, undefined = _given(answers, key, {misfit.symbol: misfit.fits for misfit in found})
         given = [rubric.compared(answer, key.key.questions[answer.name]) for answer in given]
@@ -471,6 +475,26 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
         else:
             notes.append(InputError("marked-undefined", place=line.place, text=line.name))
     return given, notes
+
+
+def _as_on_the_sheet(answers: Answers, key: Keyed) -> tuple[Answers, list[KulmanError]]:
+    """Return answers with the sheet's own scale factor of the lever where its arms fit that; and what is told of it.
+
+    The velocity plan's is meant by who has turned that plan, and writes no other.
+    """
+    own, by_scale = key.solution.solved.scale_of_figure.get(LEVER, ""), dict[str, list[float]]()
+    for line in answers.lines.values():
+        of_plan = key.scale_of(line.name, answers.scales)
+        if own and own not in answers.scales and line.mm and line.factor is None and is_arm_of_lever(line.name):
+            right, written = abs(key.key.values.get(line.name, 0.0)), answers.scales.get(of_plan)
+            sheets = key.solution.scales[own].mu
+            for mu, by in ((written.nearest(sheets) if written else sheets, of_plan), (sheets, own)):
+                by_scale.setdefault(by, []).append(apart(line.mm * mu, right))
+    if own not in by_scale or all(median(by_scale[own]) >= median(off) for by, off in by_scale.items() if by != own):
+        return answers, []
+    mu = key.solution.scales[own]
+    note = InputError("marked-scale", symbol=key.symbol(own), text=plain(key.words.scale(mu)))
+    return replace(answers, scales={**answers.scales, own: Mu(mu.mu, True)}), [note]
 
 
 def _times(line: Reply, symbol: str, answers: Answers, key: Keyed) -> float:
