@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import closing
+from html import unescape
 from pathlib import Path
 from typing import Any
 
@@ -112,6 +113,9 @@ def test_students_see_what_they_may(passwords: Path) -> None:
             page = client.get(f"/task/{TASK}", **student).text
             linked = "1" + "".join("01"[f"/task/{TASK}/{file}" in page] for file in ("sheet.svg", "results.csv"))
             assert linked == seen
+            paper = "A4" if allowed == "forms" else "A1"  # that of what they may see: the form told of the sheet's
+            told = (client.get(f"/task/{TASK}/{page}?v=3", **student) for page in ("check", "form.csv"))
+            assert all(f": {paper}: " in unescape(answer.text) for answer in told)
         assert client.get("/class", **student).status_code == 403
         assert client.get("/class", **teacher).status_code == 200
         begun = time.monotonic()

@@ -13,7 +13,7 @@ import socket
 import sys
 import webbrowser
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +32,7 @@ from ..batches.batch import FORMS
 from ..crew import digest_of
 from ..kinds import KINDS as SUBJECTS
 from ..kinds import MODULES
-from ..sheets import BLOCK
+from ..sheets import BLOCK, PAPER
 from ..shelf import GUIDES, bundled, summary
 from . import making, pages
 from .answering import Questions, marked_alone
@@ -117,6 +117,13 @@ class _Answers:
             name, own, said.get("v", ""), said.get("of", ""), settings, how, block, self.desk.door(request).language
         )
 
+    def measured(self, request: Request) -> Asked:
+        """Return what is asked of who writes what was measured: on the blank, for whom no sheet is to be seen."""
+        of = self.asked(request)
+        if self.desk.door(request).sees("sheets") or "format" in dict(of.how):
+            return of
+        return replace(of, how=(*of.how, ("format", PAPER)))
+
     def place(self, request: Request) -> Place:
         said = [
             (key, value) for key, value in request.query_params.multi_items() if key not in ("lang", "page", "view")
@@ -174,19 +181,19 @@ class _Answers:
             raise HTTPException(404)
         if not self.desk.door(request).sees(pages.SEEN.get(stem, "forms")):
             raise HTTPException(403)
-        of = self.asked(request)
+        of = self.measured(request) if stem == "form" else self.asked(request)
         name, data = await self.desk.ask((of, stem, suffix), making.made, of, stem, suffix, like=(of.task, of.variant))
         return _file(Served(name, data), as_name=f"{of.task}-{of.variant or '1'}-{name}")
 
     async def form_page(self, request: Request, filled: Mapping[str, str] | None = None, problem: str = "") -> Response:
-        door, of, at = self.desk.door(request), self.asked(request), self.place(request)
+        door, of, at = self.desk.door(request), self.measured(request), self.place(request)
         rows, wanted = await self.desk.ask((of, "form"), making.form, of, like=(of.task, of.variant))
         about = await self.shown(request)
         at = pages.settled(at, about)
         return HTMLResponse(pages.form(door, at, about.title, rows, wanted, filled or {}, problem))
 
     async def judge(self, request: Request) -> Response:
-        door, of, form = self.desk.door(request), self.asked(request), await _Form.of(request)
+        door, of, form = self.desk.door(request), self.measured(request), await _Form.of(request)
         filled = {name: texts[0][:200] for name, texts in form.texts.items()}
         cells = {
             (int(found[1]), int(found[2])): text.strip()
