@@ -230,10 +230,16 @@ def test_students_who_share_their_errors_are_named(tmp_path: Path, run: Run) -> 
 
 
 def drawn_segments(
-    task: str, hand: str, count: int, step: float = 0.5, plans: tuple[str, ...] | None = None, seed: int = 5
+    task: str,
+    hand: str,
+    count: int,
+    step: float = 0.5,
+    plans: tuple[str, ...] | None = None,
+    seed: int = 5,
+    variant: str | None = None,
 ) -> list[dict[str, _Measured]]:
     """Return what students of one variant have measured on drawings of their own, read to `step` mm."""
-    of = key(task)
+    of = key(task, variant)
     board = draw(of.paper, preset(hand).hand, np.random.default_rng(seed), count)
     asked = [q for q in of.questions.values() if plans is None or q.plan in plans]
     mus = {q.name: of.paper.mus.get(q.plan) for q in asked if q.step.verb in ("read", "arm")}
@@ -273,6 +279,24 @@ def test_in_a_class_of_two_plans_copies_are_told_and_honest_hands_are_not(task: 
 
     assert sum(len(list(shared(hands))) for hands in classes) <= 1  # of 828 pairs
     assert sum((n % 24, 24) in pairs for n, pairs in enumerate(told)) >= least * len(told)
+
+
+def test_a_work_of_another_variant_is_told_and_honest_works_of_two_are_not() -> None:
+    """Nothing was told of a whole row of another variant handed in, gross mistakes too."""
+    variants = ["0", "3", "6", "8"]
+    classes = {variant: drawn_segments(TASK, "normal", 15, variant=variant) for variant in variants}
+    hands = [(variant, hand) for variant, several in classes.items() for hand in several]
+    works = classes["0"][:8]
+    rights = [classes["8"][0], classes["3"][0]] * 4
+    pairs = [
+        [one, {name: replace(of, mm=one[name].mm) for name, of in right.items() if name in one}]
+        for one, right in zip(works, rights, strict=True)
+    ]
+
+    told = [len(list(shared(pair, ["0", "other"]))) for pair in pairs]
+
+    assert told == [1] * 8
+    assert list(shared([hand for _, hand in hands], [variant for variant, _ in hands])) == []
 
 
 def test_marks_that_are_read_in_several_ways_are_counted_as_often_as_they_can_err() -> None:

@@ -14,7 +14,7 @@ from .figures import plan_figures
 from .keyed import Rubric
 from .marked import Marked
 from .report import page, scripts
-from .result import Lines, Result, class_lines, commonest, flags_of, marked_of, names_of, shared
+from .result import Lines, Result, class_lines, commonest, flags_of, marked_of, names_of, shared_of
 from .wording import heads, mistake_texts, texts
 
 PAGE = ".html"
@@ -139,7 +139,7 @@ class ClassPage:
         rows = [
             f"<tr><td>{escape(names[pair.first])}</td><td>{escape(names[pair.second])}</td>"
             f"<td>{len(pair.names)} / {pair.of}</td><td>{pair.near} / {pair.of}</td></tr>"
-            for pair in shared([line.segments if isinstance(line, Result) else {} for line in self.lines])
+            for pair in shared_of(self.lines)
         ]
         keys = "class.first_student", "class.second_student", "class.same", "class.near"
         heads = "".join(f"<th>{escape(said[key])}</th>" for key in keys)

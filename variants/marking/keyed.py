@@ -456,8 +456,8 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
     figures, shown_on = solution.solved.scale_of_figure, solution.solved.shown_on  # of any variant
     scales |= {figures[shown_on[name]]: q.unit for name, q in quantities.items() if shown_on.get(name) in figures}
-    words, names = [replace(solution.words, language=language) for language in LANGUAGES], (*quantities, *scales)
-    shown = [(folded(text), name) for name in names for text in (name, *(of.symbol(name) for of in words))]
+    words, every = [replace(solution.words, language=language) for language in LANGUAGES], (*quantities, *scales)
+    shown = [(folded(text), name) for name in every for text in (name, *(of.symbol(name) for of in words))]
     often = Counter(text for text, _ in {*shown})
     return Asked(quantities, scales, _display_of(solution), symbols={t: name for t, name in shown if often[t] == 1})
 

@@ -492,9 +492,9 @@ def _as_on_the_sheet(answers: Answers, key: Keyed) -> tuple[Answers, list[Kulman
                 by_scale.setdefault(by, []).append(apart(line.mm * mu, right))
     if own not in by_scale or all(median(by_scale[own]) >= median(off) for by, off in by_scale.items() if by != own):
         return answers, []
-    mu = key.solution.scales[own]
-    note = InputError("marked-scale", symbol=key.symbol(own), text=plain(key.words.scale(mu)))
-    return replace(answers, scales={**answers.scales, own: Mu(mu.mu, True)}), [note]
+    scale = key.solution.scales[own]
+    note = InputError("marked-scale", symbol=key.symbol(own), text=plain(key.words.scale(scale)))
+    return replace(answers, scales={**answers.scales, own: Mu(scale.mu, True)}), [note]
 
 
 def _times(line: Reply, symbol: str, answers: Answers, key: Keyed) -> float:

@@ -34,6 +34,7 @@ BY_WRONG = 0.03  # the same of two who share readings that are wrong, by these a
 UNLIKELY_PAIR = 5e-3  # that of a pair in a small class
 DOUBT = 2.0  # students more by which the others of a class are counted who have read the same
 FEWEST = 3  # segments that two students must share
+FEWEST_OF_ANOTHER = 4  # that students of two variants must share
 FEWEST_WRONG = 2  # wrong ones, where the others need not agree
 KNOWN, ALIKE = 0.5, 0.1  # how often two honest students make the same mistake: a known one, any other one
 READ_TO = 0.1  # mm to which a segment is read at best of which only the value is said
@@ -142,23 +143,25 @@ class _Pair:
     of: int
 
 
-def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
+def shared(students: Sequence[Mapping[str, _Measured]], variants: Sequence[str] = ()) -> Iterator[_Pair]:
     """Go through the pairs of students whose measured segments agree as those of somebody who has copied.
 
     Who copies leaves most millimetres as they are and changes some of them a little; two honest drawings miss by
     different amounts. Pairs that agree so far are held against both hypotheses, segment by segment; and those who share
     two segments or more that are wrong by themselves, by these alone. What many others have read, too, tells little.
+    Of students of other `variants` segments are held against each other where theirs should be clearly different ones.
     """
     import numpy as np
 
     names = sorted({name for student in students for name in student})
     if not names or len(students) < 2:
         return
-    mm, right, alike = np.full((3, len(students), len(names)), np.nan)
+    mm, right, alike, spread = np.full((4, len(students), len(names)), np.nan)
     for i, student in enumerate(students):
         for j, name in enumerate(names):
             if name in student:
-                mm[i, j], right[i, j], alike[i, j] = student[name].mm, student[name].right, student[name].alike
+                of = student[name]
+                mm[i, j], right[i, j], alike[i, j], spread[i, j] = of.mm, of.right, of.alike, of.spread
     reach = np.array([max([CHANGED, *(s.step for s in student.values())]) for student in students]) + ROUNDING
     # pairs of other variants have no millimetres alike
     like = sum(int(((abs(right[i + 1 :] - own) <= CHANGED).sum(axis=1) >= FEWEST).sum()) for i, own in enumerate(right))
@@ -170,7 +173,10 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
         most, all_near = (same >= SAME * both) & (near >= AGREE * both), (same > SAME_OF_ALL * both) & (near == both)
         wrong = np.maximum(alike[i + 1 :], alike[i]) < 1.0
         agree = (same >= FEWEST) & (most | all_near)
-        for k in np.flatnonzero(agree | ((wrong & (apart < ROUNDING)).sum(axis=1) >= FEWEST_WRONG)):
+        other_work = abs(right[i + 1 :] - right[i]) > CLEAR * np.fmax(spread[i + 1 :], spread[i])
+        of_another = np.array([variant != variants[i] for variant in variants[i + 1 :]] or [False])
+        copied = of_another & (((apart < ROUNDING) & other_work).sum(axis=1) >= FEWEST_OF_ANOTHER)
+        for k in np.flatnonzero(copied | agree | ((wrong & (apart < ROUNDING)).sum(axis=1) >= FEWEST_WRONG)):
             other, said = int(i + 1 + k), np.flatnonzero(apart[k] < ROUNDING)
             one, two = students[i], students[other]
             rest = abs(right - right[i]) <= CHANGED  # of others under the same key
@@ -181,7 +187,7 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
             both_have = [(j, n) for j, n in enumerate(names) if n in one and n in two]
             chances = {n: max(_chance(one[n], two[n], common[j]), min(seen[j], CERTAIN)) for j, n in both_have}
             by_wrong = sum(math.log(chances[names[j]]) for j in said if wrong[k, j])
-            if by_wrong < least_wrong or (agree[k] and _likelihood(one, two, chances) < least):
+            if copied[k] or by_wrong < least_wrong or (agree[k] and _likelihood(one, two, chances) < least):
                 yield _Pair(i, other, tuple(names[j] for j in said), int(near[k]), int(both[k]))
 
 
@@ -379,6 +385,11 @@ def twice(results: Iterable[Result]) -> dict[tuple[Who, str] | str, list[Result]
     return {student: several for student, several in found.items() if len(several) > 1}
 
 
+def shared_of(lines: Lines) -> Iterator[_Pair]:
+    """Go through the pairs of a class whose segments agree as those of somebody who has copied."""
+    return shared([line.segments if isinstance(line, Result) else {} for line in lines], [one.variant for one in lines])
+
+
 def flags_of(lines: Lines, language: str) -> list[list[str]]:
     """Return for each student what a teacher should check: several marks, too exact segments, and shared ones."""
     said, names, several = texts(language), names_of(lines, language), twice(marked_of(lines))
@@ -387,7 +398,7 @@ def flags_of(lines: Lines, language: str) -> list[list[str]]:
         if isinstance(line, Result) and line.mark is not None and line.student in several:
             others = (spoken(one.source, language) for one in several[line.student] if one is not line)
             flags.append(said["flag.twice"].format(files=", ".join(others)))
-    for pair in shared([line.segments if isinstance(line, Result) else {} for line in lines]):
+    for pair in shared_of(lines):
         for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
             said_of = {"n": len(pair.names), "of": pair.of, "near": pair.near, "student": names[other]}
             found[one].append(said["flag.shared"].format(**said_of))
