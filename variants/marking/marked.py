@@ -490,7 +490,8 @@ def _as_on_the_sheet(answers: Answers, key: Keyed) -> tuple[Answers, list[Kulman
             sheets = key.solution.scales[own].mu
             for mu, by in ((written.nearest(sheets) if written else sheets, of_plan), (sheets, own)):
                 by_scale.setdefault(by, []).append(apart(line.mm * mu, right))
-    if own not in by_scale or all(median(by_scale[own]) >= median(off) for by, off in by_scale.items() if by != own):
+    off = {symbol: median(found) for symbol, found in by_scale.items()}
+    if own not in off or off[own] > min([NEAR, *(other for symbol, other in off.items() if symbol != own)]):
         return answers, []
     scale = key.solution.scales[own]
     note = InputError("marked-scale", symbol=key.symbol(own), text=plain(key.words.scale(scale)))
