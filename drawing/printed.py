@@ -325,13 +325,13 @@ def laid_off(words: Words, value: float, mu: float, known: str) -> str:
     """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
 
     It is as long as it is drawn, to the last digit that a ruler shows. It has one digit more than a ruler where a
-    number could not be told from others, and is a hundredth of a mm off its drawing at most.
+    number could not be told from others, or even two, and is a hundredth of a mm off its drawing at most.
     """
     segment = abs(value) / mu
     usual, finest = ruler_decimals(words, segment), ruler_decimals(words, 0.0)
-    for decimals in range(usual, finest + 1):
+    for decimals in range(usual, finest + 2):
         here, step = rounded(segment, decimals), 10.0**-decimals
-        most = (0.5 if decimals < finest else 1.0) * step * (1.0 + TIE)
+        most = (0.5 * step if decimals < finest else 10.0**-finest) * (1.0 + TIE)
         beside = (here - step, here + step, rounded(number_of(known) / mu, decimals)) if decimals >= finest else ()
         for mm in (here, *beside):
             if abs(mm - segment) <= most and recomputes(mm * mu, known):

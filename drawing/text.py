@@ -294,7 +294,7 @@ def _is_symbol(letters: str, before: str, after: str, local: bool, script: str, 
         return False
     if len(letters) > 3 and letters[1:].islower():
         return False
-    near, beyond = before.rstrip(" ")[-1:], after.lstrip(" ")[:1]
+    near, beyond = before.removesuffix("– ").rstrip(" ")[-1:], after.removeprefix(" –").lstrip(" ")[:1]  # no minus
     at_operator = (near and near in _OPERATORS) or (beyond and beyond in _OPERATORS)
     return bool(script or local or len(letters) == 1 or at_operator or _BEHIND_FUNCTION.search(before))
 

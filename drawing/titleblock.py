@@ -38,8 +38,9 @@ Ruling: TypeAlias = tuple[tuple[float, float, float, float, Pen], ...]  # ends a
 class Stamp:
     """What the title block says; an empty field stays blank on the sheet.
 
-    Where no `designation` is said, one is composed of the `code` of the work and the number of the sheet; a further
-    `series` of sheets counts from 101. `identity` stands under the frame: what tells the data of a sheet from others.
+    Where no `designation` is said, one is composed of the `code` of the work and the number of the drawing, which all
+    its sheets have (GOST 2.104): 001, of a further `series` 101. `identity` stands under the frame: what tells the data
+    of a sheet from others.
     """
 
     title: str = ""
@@ -60,8 +61,8 @@ class Stamp:
 
     @property
     def designated(self) -> str:
-        """The designation of this sheet."""
-        return self.designation or (f"{self.code}.{100 * self.series + self.sheet:03d}" if self.code else "")
+        """The designation of the drawing."""
+        return self.designation or (f"{self.code}.{100 * self.series + 1:03d}" if self.code else "")
 
 
 # From the bottom left corner of the block: level and ends of horizontal lines, place and ends of vertical ones, mm.

@@ -366,6 +366,7 @@ def test_latin_letters_are_symbols_where_words_and_units_have_others(markup: str
         ("сила в точці B. Далі", ["B"]),
         ("a′s′_{2} = a′b′·AS_{2}/AB", ["a′s′", "2", "a′b′", "AS", "2", "AB"]),
         ("a′", ["a′"]),
+        ("0 – the working stroke begins, e – it ends", ["e"]),
     ],
 )
 def test_symbols_of_quantities_lean_and_words_units_and_functions_do_not(markup: str, leaning: list[str]) -> None:

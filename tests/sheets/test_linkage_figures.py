@@ -388,6 +388,19 @@ def test_link_whose_triangle_is_named_has_three_main_sides() -> None:
     assert thin == []
 
 
+@pytest.mark.parametrize("variant", some(["5", "0", "2", "9"], 1))
+def test_the_travel_of_a_driver_that_slides_is_dimensioned_from_where_it_is_zero(variant: str) -> None:
+    """The plan did not say where the driver stands: of a crank it dimensions phi."""
+    task = "scheme-18-hydraulic-drive"
+    solution, view = solve(task, variant), Linkage(task, variant, format="A1").sheet["position"]
+    (line,) = (s.points for s in view.inside("dimension", "s") if len(s.points) == 2)
+
+    travel = abs(float(solution.case.solved.values["s"]))
+    assert abs(line[1] - line[0]) * solution.scales["mu_l"].mu == pytest.approx(travel, abs=1e-5)
+    assert min(abs((end - view.point("A")).real) for end in line) < 0.01
+    assert any(text.string.replace(" ", "") == f"s={travel * 1e3:.0f}" for text in view.texts)
+
+
 @pytest.mark.parametrize(
     "task", some(["scheme-20-press-automaton", "scheme-13-toggle-press", "scheme-06-opposed-compressor"], 2)
 )

@@ -18,12 +18,12 @@ import numpy as np
 from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import is_relative
 from ....plans.linkages.legs import guide_letters
-from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic
+from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic, SlidingDriver
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.names import role
 from ...figure import ANSWERS, GIVEN
 from ...shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Vector, sides_of
-from ...symbols import angle_dimension, turning_arrow, unit
+from ...symbols import angle_dimension, dimension, turning_arrow, unit
 from ...text import lay_out
 from ...view import Canvas, View
 from ..ladders import ON_AXIS
@@ -50,6 +50,7 @@ ACROSS = 0.7, 0.6, 0.8, 0.3, 0.25  # parts of a longer one at which it stands
 PAST = 16.0  # mm by which the axis of a guide runs past its slider and a pivot
 LEAVES, LONGEST = 1.6, 34.0  # mm by which the end of an arc leaves its tangent, unless the arc would be too long
 AROUND = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]  # sides of a place for a letter
+UNDER = 10.0  # mm from the hatching under a slider that drives to the dimension of its travel
 LEAST_ARC = 9.0  # mm, the least radius of the arc of phi
 BEYOND, OVER = (5.0, 8.0, 12.0, 16.0), 2.0  # mm from a short crank to an arc beyond it, and from that to its line's end
 FARTHEST_ARC = 200.0  # mm, the largest radius of an arc, however large a scale factor draws the crank
@@ -85,7 +86,9 @@ def draw_driver(canvas: Canvas, scene: Scene) -> None:
     canvas.part(driver.point)
     if isinstance(driver, Driver):
         _angle(canvas, scene, driver)
-    elif speed := scene.values[driver.speed]:
+        return
+    _travel(canvas, scene, driver)
+    if speed := scene.values[driver.speed]:
         canvas.part(ANSWERS)
         pair = scene.sliding(driver.link)[0]
         up, e = guide_up(scene, pair), guide_of(scene, pair) * math.copysign(1.0, speed)
@@ -93,6 +96,21 @@ def draw_driver(canvas: Canvas, scene: Scene) -> None:
         tip = tail + e * 0.6 * scene.style.force
         canvas.add(Arrow(tail, tip, name=driver.speed))
         canvas.label(scene.letter(f"V_{driver.point}"), (tail, tip))
+
+
+def _travel(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
+    """Dimension the travel of a driver that slides from the place where it is zero."""
+    style, pair, travel = scene.style, scene.sliding(driver.link)[0], scene.values[driver.travel]
+    at, down = scene.mm(pair.point), -guide_up(scene, pair)
+    zero = at - guide_of(scene, pair) * travel / scene.scales[POSITION].mu
+    low = down * (style.slider[1] / 2 + 2.0 * style.pair + UNDER)
+    for end in (zero, at) if travel else (zero,):
+        begin = end + down * (style.slider[1] / 2 if end == at else -OVER)
+        canvas.add(Line(begin, end + low + down * OVER, Pen.THIN, role="extension", name=driver.travel))
+    text = f"{scene.words.symbol(driver.travel)} = {scene.words.short(round(travel * 1e3, 9))}"
+    if travel:
+        canvas.add(dimension(zero + low, at + low, driver.travel, style))
+    canvas.label(text, (zero + low, at + low) if travel else zero + low, prefer=down)
 
 
 def _dead_positions(canvas: Canvas, scene: Scene, dead: Sequence[SolvedLinkage]) -> tuple[str, ...]:
