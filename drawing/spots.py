@@ -49,6 +49,7 @@ KNEES = np.arange(3.0, 25.0, 2.0)  # mm from its start at which a leader may ben
 ROUND_ABOUT = np.exp(1j * np.radians(np.arange(0.0, 360.0, 10.0)))  # where it may run before it bends
 AFTER = ROUND_ABOUT[abs(ROUND_ABOUT.imag) > 0.49]  # and then: neither a bar nor a dash
 BEND, SHARPEST = 12.0, -0.3  # what a bend costs; cosine of the sharpest
+WIDER = np.array([1.0, 1.1, 1.2, 1.3, 1.4])  # times as wide as what it is about may be the circle of a detail
 SLACK = 1e-9  # mm, for rounding
 ROUND = 64  # corners of what stands for a circle where a leader may run through it
 
@@ -487,14 +488,16 @@ def shelf(
 ) -> tuple[complex, complex, complex]:
     """Return the leader of a letter on a shelf, from a circle: its start, its knee and the end of the shelf.
 
-    Leader and letter, of this width and height, are clear of all that is drawn where that is possible.
+    Leader and letter, of this width and height, are clear of all that is drawn where that is possible: the circle may
+    be `WIDER` then, so that the leader begins outside of lines that close round it.
     """
     around, (wide, high) = Surroundings(obstacles, gap), 0.5 * np.array(size)
-    way, length = (grid.ravel() for grid in np.meshgrid(STEEP[abs(STEEP.real) > SLACK], FAR))
-    starts, knees = centre + radius * way, centre + (radius + length) * way
+    way, length, wider = (grid.ravel() for grid in np.meshgrid(STEEP[abs(STEEP.real) > SLACK], FAR, WIDER))
+    starts, knees = centre + radius * wider * way, centre + (radius * wider + length) * way
     ends = knees + 2.0 * wide * np.sign(way.real)
     middles = 0.5 * (knees + ends) + 1j * high
     near = around.things.distance(middles.real[:, None], middles.imag[:, None], wide, high) < gap
-    cost = THIN * (near.sum(axis=1) + around.crossed(knees, starts)) + length - TURN * (way * (1.0 - 1.0j)).real
+    cost = THIN * (near.sum(axis=1) + around.crossed(knees, starts) + wider - 1.0)
+    cost += length - TURN * (way * (1.0 - 1.0j)).real
     best = int(cost.argmin())
     return complex(starts[best]), complex(knees[best]), complex(ends[best])

@@ -240,13 +240,14 @@ class Canvas:
     def detail(self, numeral: str, centre: complex, radius: float, name: str) -> None:
         """Mark a place by a circle, its numeral on the shelf of a leader that is clear of all that is drawn.
 
-        That is one of `UNNUMBERED`, instead of which it has its own once figures are `numbered`.
+        The circle is a little wider than that where no leader is clear else. The numeral is one of `UNNUMBERED`,
+        instead of which it has its own once figures are `numbered`.
         """
         height = self.style.label
         self._details.append(numeral)
         size = lay_out(numeral, height).width + 2.0, height + 1.0
         start, knee, end = shelf(centre, radius, size, _obstacles(self.shapes, self._boxes, self.style))
-        self.add(Arc(centre, radius, 0.0, 2.0 * pi, Pen.THIN, role="window", name=name))
+        self.add(Arc(centre, abs(start - centre), 0.0, 2.0 * pi, Pen.THIN, role="window", name=name))
         self.add(Line(knee, start, Pen.THIN, role="leader", name=numeral))
         self.thin("shelf", numeral, knee, end)
         self.add(Text(0.5 * (knee + end) + 1j, numeral, height, "middle", role="label"))

@@ -698,3 +698,20 @@ def test_cells_hold_all_of_boxes_and_circles_and_little_that_is_not_drawn(seed: 
 
     assert cells.at(inside.real.ravel(), inside.imag.ravel()).all()
     assert not cells.at(places.real, places.imag)[gaps > 3.0 * CELL].any()
+
+
+@pytest.mark.parametrize("radius", [9.0, 9.5, 9.9])
+def test_the_circle_of_a_detail_is_wider_where_its_leader_begins_outside_of_a_closed_figure_so(radius: float) -> None:
+    canvas, corners = Canvas(STYLES["A3"]), [14.0 * turned(1.0, 52.0) * 1j**k for k in range(5)]
+    sides = [Line(a, b, Pen.MAIN) for a, b in itertools.pairwise(corners)]
+    canvas.add(*sides)
+
+    canvas.detail("I", 0j, radius, "detail")
+
+    (ring,) = (shape for shape in canvas.shapes if isinstance(shape, Arc))
+    (leader,) = (shape for shape in canvas.shapes if isinstance(shape, Line) and shape.role == "leader")
+    assert 1.0 <= ring.radius / radius < 1.5
+    assert abs(leader.b) == pytest.approx(ring.radius)
+    way = shapely.LineString([(leader.a.real, leader.a.imag), (leader.b.real, leader.b.imag)])
+    square = shapely.LinearRing([(z.real, z.imag) for z in corners])
+    assert not way.crosses(square)
