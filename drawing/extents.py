@@ -28,6 +28,9 @@ FIXED = 0.90  # of any page where all plans are fixed, and none can become small
 # of these, and of the least segments, where what is drawn takes more pages than that
 SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6)
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
+# estimates of two pages, in pages, at which the second one is half empty, and the least at which it surely is not; how
+# long plans are at most, in parts of what is most for them else, where they are larger for its sake
+EMPTY, WHOLE, LONGER = (1.34, 1.54), 1.58, 1.15
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
 SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
 CHOSEN = 1e6  # times as much as what is off its goal a step counts that the task has chosen
@@ -77,13 +80,15 @@ def not_a_point(symbol: str, mu: float, largest: float, unit: str) -> None:
 class Ladder:
     """The values that a scale factor may take, the wanted one first; one that is fixed stays.
 
-    What a task has `chosen` becomes smaller after the others. With a `root` it stands on the rung of another one.
+    What a task has `chosen` becomes smaller after the others. With a `root` it stands on the rung of another one. The
+    wanted one may be a later one, `begin`, before which stand finer ones that a page with much room has.
     """
 
     values: tuple[float, ...]
     root: str = ""
     fixed: bool = False
     chosen: bool = False
+    begin: int = 0
 
     @property
     def free(self) -> bool:
@@ -158,32 +163,69 @@ def ways(
             fits |= _shrunk(extents, rungs, sheet, room, share * least)
             if not fits:
                 break
-            if rungs not in tried:
-                yield sheet, dict(rungs), count
-                tried.append(dict(rungs))
+            first = fits and not tried and count == 2 and free and sheet.name == SIZES[-1]
+            for some in (
+                (_filling(extents, rungs, sheet, room, share * least, LONGER * most), rungs) if first else (rungs,)
+            ):
+                if some not in tried:
+                    yield sheet, dict(some), count
+                    tried.append(dict(some))
     if not fits:  # no number of pages is enough: what has no room is told when it is drawn
         yield sheet, _begun(extents, sheet, several[1]), MOST
 
 
 def _begun(extents: Extents, sheet: Format, most: float) -> Rungs:
     """Return the rungs at which figures are so large at most, in parts of their goals, and each has room on a page."""
-    rungs = dict.fromkeys((symbol for symbol, ladder in extents.ladders.items() if not ladder.root), 0)
+    rungs = {symbol: ladder.begin for symbol, ladder in extents.ladders.items() if not ladder.root}
     for symbol, ladder in extents.ladders.items():
         while ladder.free and not ladder.chosen and rungs[symbol] + 1 < len(ladder.values):
             if extents.part(symbol, rungs[symbol]) <= 1.0001 * most:
                 break
             rungs[symbol] += 1
-    # the largest view that a page can hold, whatever its norm, and where printers do not reach the edges
-    wide, high = (min(sides) for sides in zip(*(room(printable(sheet), norm, True) for norm in NORMS), strict=True))
-    part = ONE[sheet.letters]
     for figure in extents.figures:
         symbol = extents.root(figure.symbol)
         while symbol and extents.ladders[symbol].free and rungs[symbol] + 1 < len(extents.ladders[symbol].values):
-            w, h = figure.on_paper(extents.mu(figure.symbol, rungs), SMALLER[sheet.letters])
-            if w <= part * wide and h <= part * high:
+            if _has_room(extents, figure, rungs, sheet):
                 break
             rungs[symbol] += 1
     return rungs
+
+
+def _has_room(extents: Extents, figure: Extent, rungs: Rungs, sheet: Format) -> bool:
+    """Whether a page has room for a figure, whatever its norm, and where printers do not reach the edges."""
+    wide, high = (min(sides) for sides in zip(*(room(printable(sheet), norm, True) for norm in NORMS), strict=True))
+    w, h = figure.on_paper(extents.mu(figure.symbol, rungs), SMALLER[sheet.letters])
+    return w <= ONE[sheet.letters] * wide and h <= ONE[sheet.letters] * high
+
+
+def _filling(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: float, longest: float) -> Rungs:
+    """Return rungs, a step off these at most, nearest to the goals of which the second of two pages is not half empty.
+
+    All take `most` mm^2, and plans are from the part `least` of their goals, or from all of it where they are smaller
+    for the sake of others, to the `longest`. Where no such steps help, or none are needed, these rungs stay.
+    """
+    texts, page = SMALLER[sheet.letters] ** 1.5 * extents.texts, _page(sheet)
+    ways = [(0.0, texts + _area(extents, (f for f in extents.figures if not f.symbol), rungs, sheet), dict[str, int]())]
+    for symbol, rung in rungs.items():
+        own, ladder = [f for f in extents.figures if extents.root(f.symbol) == symbol], extents.ladders[symbol]
+        steps = [(rung, 0.0, _area(extents, own, rungs, sheet))]
+        for other in (rung - 1, rung + 1) if own and ladder.free and not ladder.chosen else ():
+            part = extents.part(symbol, other) if 0 <= other < len(ladder.values) else 0.0
+            if not (least if other < rung else 1.0) <= part <= longest:
+                continue
+            if all(_has_room(extents, figure, {symbol: other}, sheet) for figure in own):
+                off = _off(extents.off_goals(symbol, other)) - _off(extents.off_goals(symbol, rung))
+                steps.append((other, off, _area(extents, own, {symbol: other}, sheet)))
+        ways = [(off + far, area + wide, {**some, symbol: k}) for off, area, some in ways for k, far, wide in steps]
+    if not EMPTY[0] * page < ways[0][1] < EMPTY[1] * page:
+        return rungs
+    filled = (way for way in ways if EMPTY[1] * page <= way[1] <= most)
+    return min(filled, key=lambda way: (way[1] < WHOLE * page, way[0]), default=ways[0])[2]
+
+
+def _off(far: Iterable[float]) -> float:
+    """Return how far figures are from their goals in all, from the logarithms of that."""
+    return sum(own**2 * (1.0 if own < 0.0 else OVER) for own in far)
 
 
 def _covered(extents: Extents, count: int) -> float:
@@ -219,7 +261,7 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: f
         """Return how far figures are from their goals; what the task has chosen stays where it can."""
         if ladders[symbol].chosen:
             return CHOSEN * rung
-        return sum(far**2 * (1.0 if far < 0.0 else OVER) for far in extents.off_goals(symbol, rung))
+        return _off(extents.off_goals(symbol, rung))
 
     @cache
     def may(symbol: str, rung: int) -> bool:

@@ -294,17 +294,18 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
             warnings.append(InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said))
     # others than `solve` shows, which follow from the extents alone, of a sheet of one position
     paper, scales = case.kind.first_scales(case.solved, case.choosers, case.plans)
-    changed = dict[str, KulmanError]()
+    changed, coarser = dict[str, KulmanError](), False
     for plan in case.solved.scale_of_plan if case.positions is None else ():
         usual, scale = scales[plan], drawn.scales[plan]
         if scale.mu != usual.mu and not isinstance(case.choosers.get(scale.symbol), Fixed):
             before, now = (case.display.scale(one) for one in (usual, scale))
             said = {"before": f"{before.mu:g}", "now": f"{now.mu:g}", "unit": now.per_mm_unit}
             changed[scale.symbol] = InputError("scale-changed", symbol=scale.symbol, **said)
+            coarser |= scale.mu > usual.mu
     if changed:
         shows = case.command("solve", "--format", drawn.sheet.letters)
         said = {"format": drawn.sheet.letters, "usual": paper.name, "command": shows}
-        key = "scales-reduced" if paper.name == drawn.sheet.letters else "scales-changed"
+        key = "scales-reduced" if paper.name == drawn.sheet.letters and coarser else "scales-changed"
         warnings.append(InputError(key, changes=tuple(changed.values()), **said))
     with lettered(case.lettering, case.language):
         pages = drawn.pages(stamp)

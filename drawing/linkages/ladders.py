@@ -16,7 +16,7 @@ from ...plans.names import COUPLE, FORCES, LEVER, is_shown, role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Choosers, CrankScale, Fixed, From, Round, Scale, steps
-from ..extents import Extent, Extents, Ladder, Rungs, Size, visible, ways
+from ..extents import LONGER, Extent, Extents, Ladder, Rungs, Size, visible, ways
 from ..formats import FORMATS, Format
 
 ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
@@ -118,19 +118,23 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
     ladders: dict[str, Ladder] = {}
     measured = any(step.verb == "measure" and is_shown(step.name) for step in solved.program)
     for symbol, size in longest.items():
-        chooser, kind = choosers.get(symbol), role(symbol).of
+        chooser, kind, finer = choosers.get(symbol), role(symbol).of, tuple[float, ...]()
         if symbol == "mu_l" and chooser is None and scheme_only(plans) and measured:
             values = steps(scheme_mu(solved, SCHEME))[:1]  # lengths are taken off the scheme
         elif chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            values = Round(symbol, GOALS[kind] * PARTS["A1"][1][1]).ladder(value) if size > 0.0 else (1.0,)
+            usual = GOALS[kind] * PARTS["A1"][1][1]
+            values = Round(symbol, usual).ladder(value) if size > 0.0 else (1.0,)
+            finer = tuple(mu for mu in steps(size / (LONGER * usual) or 1.0) if mu < values[0])
         elif isinstance(chooser, CrankScale):
             values = chooser.ladder(value, ladders["mu_l"].values)
         else:
             values = chooser.ladder(value)
+        wanted, values = values[0], (*finer, *values)
         # of what the task or the user has fixed several pages are better than a coarser one
         fixed = isinstance(chooser, Fixed) or (chooser is not None and chooser.firm)
         if not fixed and kind in "hF" and longest.get("mu_V"):  # in proportion to a velocity plan that the task fixes
-            finest = ladders["mu_V"].values[0] * (size / longest["mu_V"] if kind == "F" else 1.0) / PROPORTION
+            rate = ladders["mu_V"]
+            finest = rate.values[rate.begin] * (size / longest["mu_V"] if kind == "F" else 1.0) / PROPORTION
             values = tuple(mu for mu in values if mu >= finest * (1.0 - ROUNDING)) or values[-1:]
         visible(chooser, symbol, values[0], size, UNITS[kind])
         ladders[symbol] = Ladder(
@@ -138,6 +142,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             fixed=fixed,
             chosen=chooser is not None and not isinstance(chooser, From),
+            begin=ladders["mu_l"].begin if isinstance(chooser, CrankScale) else sum(mu < wanted for mu in values[:-1]),
         )
     forces = [s for s in ladders if role(s).of == "F" and s not in choosers and longest[s] > 0.0]
     if forces:  # nearly as long as one another, they are drawn to one scale factor

@@ -282,7 +282,10 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     if fewest is None:
         raise InputError("sheet-too-small", format=way.name)
     way, (views, rungs, places) = fewest
-    if whole is not None and last(places) > 0:
+    if whole is None:
+        drawn = _composed(fitting, fewest[1], way, smaller=True)
+        return drawn if not drawn.short else _composed(fitting, _resized(fitting, way, fewest[1])[0], way, smaller=True)
+    if last(places) > 0:
         found, drawn = _resized(fitting, whole, fewest[1])
         if sheet == whole:
             return drawn
@@ -293,7 +296,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
         if stated is None:
             raise InputError("sheet-too-small", format=sheet.name)
         way, (views, rungs, places) = sheet, stated
-    return _composed(fitting, (views, rungs, places), way, smaller=sheet is None)
+    return _composed(fitting, (views, rungs, places), way)
 
 
 def _composed(fitting: _Fitting, found: Found, sheet: Format, smaller: bool = False) -> Drawn:

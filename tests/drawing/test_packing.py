@@ -22,7 +22,7 @@ from kulman.drawing.compose import (
     on_a_page,
     on_one_page,
 )
-from kulman.drawing.extents import FILL, OVER, Extent, Extents, Ladder, _area, _begun, _page, ways
+from kulman.drawing.extents import EMPTY, FILL, OVER, Extent, Extents, Ladder, _area, _begun, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, bare, spread
 from kulman.drawing.page import extent
@@ -318,6 +318,25 @@ def test_what_one_plan_gives_up_below_its_least_others_have():
     before, smaller = next((a, b) for a, b in itertools.pairwise(tried) if b["mu_l"] > a["mu_l"])
     assert smaller["mu_V"] < before["mu_V"]
     assert all(tried.count(rungs) == 1 for rungs in tried)
+
+
+@pytest.mark.parametrize("chosen", [False, True])
+def test_plans_of_two_pages_are_finer_where_the_second_would_be_half_empty(chosen):
+    sheet, goals = FORMATS["A1"], [200.0, 200.0, 180.0, 160.0]
+    ladder = Ladder((0.8, 1.0, 1.25, 2.0, 2.5), begin=1, chosen=chosen)
+    figures = [Extent(f"mu_{k}", (goal, goal), (60.0, 90.0), goal=goal) for k, goal in enumerate(goals)] * 2
+    ladders = {figure.symbol: ladder for figure in figures}
+    finer = 0
+    for area in range(50_000, 250_000, 10_000):
+        own = Extents(figures, area, ladders, 3.0)
+        _, rungs, count = next(ways(own, {"A1": ((0.6, 1.6), (0.6, 1.6))}, [sheet]))
+
+        taken = (_area(own, figures, rungs, sheet) + area) / _page(sheet)
+        usual = (_area(own, figures, dict.fromkeys(ladders, 1), sheet) + area) / _page(sheet)
+        if count == 2:
+            assert chosen or not EMPTY[0] < taken < EMPTY[1]
+            finer += taken > usual
+    assert (finer > 1) is not chosen
 
 
 @pytest.mark.parametrize(("alone", "pages"), [(1.0, 1), (1.8, 2)])
