@@ -35,6 +35,8 @@ MEANINGS = (VARIANT, SCHEME, NOTHING)
 _MEANT = {"task": SCHEME, "variant": VARIANT}  # by what a column of such a name holds
 INITIALS = 3  # letters that may stand for a name
 MOST = 9  # digits that have a meaning
+_BARS = re.compile(r"[-‐‑–'’ʼ`]")
+_COMPOUND = re.compile(rf"\w+(?:{_BARS.pattern}\w+)+")
 _SHORTENED = re.compile(r"\d[.,]\d*E\+?\d+", re.IGNORECASE)  # 1,23E+11: what a spreadsheet leaves of a long number
 
 
@@ -178,6 +180,14 @@ def _folded(text: str) -> str:
     return re.sub(r"[\s.'’ʼ`]+", "", text.casefold().replace("ё", "е"))
 
 
+def _compound(name: str, other: str) -> str:
+    """Return a name with double-barrelled ones and apostrophes as another has them: names of files have lost them."""
+    for compound in _COMPOUND.findall(other):
+        apart = r"[\s_-]+".join(map(re.escape, _BARS.split(compound)))
+        name = re.sub(rf"\b{apart}\b", compound, name, flags=re.IGNORECASE)
+    return name
+
+
 def _same_person(one: str, other: str) -> bool:
     """Whether two names may be one student's: words in any order, or surname and initials, or fewer given names.
 
@@ -185,10 +195,12 @@ def _same_person(one: str, other: str) -> bool:
     (True, True)
     >>> _same_person("Коваль Олег", "Коваль Ольга"), _same_person("Ольга", "Коваль Ольга")
     (False, False)
+    >>> _same_person("Мар яненко Анна Марія 6 handout", "Мар'яненко Анна-Марія")
+    True
     """
-    short, whole = sorted(
-        ([_folded(word) for word in re.split(r"[\s.]+", name) if word] for name in (one, other)), key=len
-    )
+    pairs = (one, other), (other, one)
+    words = (re.split(r"[\s.]+", _compound(name, of)) for name, of in pairs)
+    short, whole = sorted(([_folded(word) for word in some if word] for some in words), key=len)
     if len(short) < 2:
         return False
     if {*short} <= {*whole}:

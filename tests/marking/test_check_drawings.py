@@ -15,6 +15,7 @@ import pytest
 from kulman import check, sheet
 from kulman.drawing.linkages.reading import read
 from kulman.drawing.shapes import Group, Line, Text
+from kulman.drawing.writers import slug
 from kulman.plans.board import POSITION
 from kulman.plans.marking.answers import Verdict
 from kulman.plans.marking.lines import Drawn, Letter
@@ -317,6 +318,27 @@ def test_drawings_of_a_class_are_named_after_students(tmp_path: Path) -> None:
     assert not by_name["Koval Olha"].exact
     assert [one.mark for name, one in by_name.items() if name != "Koval Olha"] == [None]
     assert len(told) == 1
+
+
+@pytest.mark.parametrize("name", [
+    pytest.param("Лисенко_Соломія_Ірина_Богданівна", id="by hand"),
+    pytest.param(f"017-{slug('Лисенко Соломія-Ірина Богданівна 6')}-handout", id="by batch"),
+    pytest.param("Лисенко Соломія-Ірина", id="as it is"),
+    pytest.param(f"018-{slug(chr(39).join(('Мар', 'яненко О.')))}-2", id="an apostrophe"),
+])  # fmt: skip
+def test_a_file_is_a_students_whatever_its_name_has_lost(tmp_path: Path, name: str) -> None:
+    students = "Лисенко Соломія-Ірина Богданівна", "Мар'яненко Олена", "Лисенко Олег"
+    roster, works = tmp_path / "class.csv", tmp_path / "works"
+    roster.write_text("student;variant\n" + "".join(f"{who};3\n" for who in students), encoding="utf-8")
+    works.mkdir()
+    for file in (name, "Nobody"):
+        (works / f"{file}.svg").write_text("<svg")
+    ready = check("nau-slider-crank", roster=roster)
+
+    one, other = sorted(ready.read(str(works), warn=lambda error: None), key=lambda one: "Nobody" in one.source)
+
+    assert one.who.student in students[:2]
+    assert ready.entry_of(other) is None
 
 
 def test_a_marked_drawing_is_plain_data_too(tmp_path: Path, run: Run) -> None:
