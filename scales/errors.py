@@ -56,13 +56,13 @@ class Spoken(str):
 
 
 class RowOf(Spoken):
-    """Where a row of a table stands: `class.csv: row 12`."""
+    """Where a row of a table stands: `class.csv: row 12`; `12, Koval` where a name tells more."""
 
     __slots__ = ("file", "row")
     file: str
-    row: int
+    row: int | str
 
-    def __new__(cls, file: str, row: int) -> RowOf:
+    def __new__(cls, file: str, row: int | str) -> RowOf:
         """Return the place of a row, counted from 1, of a file as it is shown."""
         place = super().__new__(cls, messages("en")["row-of"].format(file=file, row=row))
         place.file, place.row = file, row

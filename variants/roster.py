@@ -29,6 +29,7 @@ from .task import NUMBERED, LocatedError, Task
 
 WHO = ("student", "group", "book", "number", "email")
 KEYS = ("number", "book", "email", "student")  # by which a student is found, the surest first
+GIVEN = ("first", "middle")  # names behind the surname that have columns of their own
 NAMED = {*KEYS, "first"}  # columns of which a roster has one
 SCHEME, VARIANT, NOTHING = "scheme", "variant", "-"
 MEANINGS = (VARIANT, SCHEME, NOTHING)
@@ -53,8 +54,8 @@ class Who:
     @classmethod
     def of(cls, about: Mapping[str, str]) -> Who:
         """Return the student of whom a file says so."""
-        said = {key: " ".join(about.get(key, "").split()) for key in (*WHO, "first")}
-        said["student"] = f"{said['student']} {said.pop('first')}".strip()
+        said = {key: " ".join(about.get(key, "").split()) for key in (*WHO, *GIVEN)}
+        said["student"] = " ".join(filter(None, (said["student"], *map(said.pop, GIVEN))))
         return cls(**said)
 
 
@@ -77,12 +78,14 @@ class Entry:
 class Roster:
     """The students of a class, in the order of the file; `unread` are the heads of columns that say nothing here.
 
-    Of a class with one task `elsewhere` are the tasks of those who are left out.
+    Of a class with one task `elsewhere` are the tasks of those who are left out. `sheets` says which worksheets are
+    not read.
     """
 
     entries: tuple[Entry, ...]
     unread: tuple[str, ...] = ()
     elsewhere: tuple[str, ...] = ()
+    sheets: tuple[InputError, ...] = ()
 
     @cached_property
     def _by_key(self) -> Mapping[tuple[str, str], list[Entry]]:
@@ -259,9 +262,12 @@ def read_roster(file: str | Path, schemes: Task | Schemes, each: bool = False, o
     if isinstance(schemes, Task):
         of, schemes = schemes, Schemes((schemes,), numbered=False)
     grid = read_grid(file)
-    named = (len(cells) > 1 and not NAMED.isdisjoint(map(about_kind, cells)) for cells in grid.rows[:LOOKED_AT])
-    header = next((row for row, is_header in enumerate(named) if is_header), None)
-    if header is None:
+    for header in range(min(len(grid.rows), LOOKED_AT)):
+        headed = grid.joined(header)
+        if len(headed.rows[header]) > 1 and not NAMED.isdisjoint(map(about_kind, headed.rows[header])):
+            grid = headed
+            break
+    else:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
     columns = _columns(grid, header, schemes, of)
     others = {row: columns.other(row) for row in columns.groups}
@@ -278,7 +284,7 @@ def read_roster(file: str | Path, schemes: Task | Schemes, each: bool = False, o
     unsaid = (text for column, text in enumerate(grid.rows[header]) if column not in said)
     unread = (text for text in unsaid if any(map(str.isalpha, text)) and tidy(text) not in ORDINALS)
     entries = (read(row) for row, other in others.items() if not other)
-    return Roster(tuple(entries), tuple(unread), tuple(dict.fromkeys(filter(None, others.values()))))
+    return Roster(tuple(entries), tuple(unread), tuple(dict.fromkeys(filter(None, others.values()))), grid.unread)
 
 
 def _columns(grid: Grid, header: int, schemes: Schemes, of: Task | None) -> _Columns:
@@ -319,13 +325,13 @@ def _entry(columns: _Columns, row: int) -> Entry:
 
 @contextmanager
 def _located(columns: _Columns, row: int, kind: str) -> Iterator[None]:
-    """Say with a problem in which cell it is: that of `kind`, of the record book where it is empty, or the row."""
-    grid, about = columns.grid, columns.about
+    """Say with a problem in which cell it is: that of `kind`, of the record book where it is empty, or whose row."""
+    grid, about, said = columns.grid, columns.about, columns.said(row)
     try:
         yield
     except InputError as problem:
-        column = next((about[one] for one in (kind, "book") if columns.said(row).get(one)), None)
-        raise LocatedError(grid.place(row, column), problem) from problem
+        column = next((about[one] for one in (kind, "book") if said.get(one)), None)
+        raise LocatedError(grid.place(row, column, Who.of(said).student), problem) from problem
 
 
 def _settings(columns: _Columns, row: int, task: Task) -> Iterator[tuple[str, str]]:

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from ..plans.hoist.hoist import Hoist
 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
-NUMBERED = re.compile(r"([^\W\d]*)(\d{1,99})(?:[.,]0)?")  # letters and a number; 4.0 is how a spreadsheet may write 4
+# letters and a number, V04 or V-04; 4.0 is how a spreadsheet may write 4
+NUMBERED = re.compile(r"([^\W\d]*)(?:(?<=[^\W\d])[-–. ])?(\d{1,99})(?:[.,]0)?")
 _OF_VARIANT = ("", "v", "в")  # letters before its number that only say what it is
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 

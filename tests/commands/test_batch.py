@@ -9,6 +9,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import openpyxl
 import pytest
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LTTextContainer
@@ -58,7 +59,7 @@ def test_every_student_gets_a_sheet_and_who_does_not_is_named(tmp_path: Path, ru
     assert status == 2
     assert "students: 5, done: 2" in printed
     problems = err.splitlines()
-    assert [line.split(":")[1].strip() for line in problems[:3]] == ["C4", "row 5", "D6, phi"]
+    assert [line.split(":")[1].strip() for line in problems[:3]] == ["C4", "row 5, None", "D6, phi"]
     assert "manifest.csv" in problems[3]
     sheets = {f"{stem}{end}" for stem in ("001-Ivan-Koval-3", "002-Olha-5") for end in (".pdf", ".svg")}
     assert set(files(out)) == {*sheets, "key.csv", "manifest.csv"}
@@ -113,6 +114,9 @@ def test_a_student_gets_a_note_and_a_handout(tmp_path: Path) -> None:
         ("Академічна група АТ-301", "Підгрупа АТ-302"),
         ("Список студентів групи АТ-301", "Група;АТ-302"),
         ("Group AT-301:", "Subgroup AT-302"),
+        ("Student list of group AT-301, autumn term", "List of students, group AT-302, autumn term 2026/27"),
+        ("Ведомость группы АТ-301, осенний семестр", "Список студентів групи АТ-302 осінній семестр"),
+        ("Дисципліна: ТММ;;група «АТ-301»;дата 01.12.2026", "Відомість групи АТ-302"),
     ],
 )
 def test_a_row_that_names_a_group_is_the_title_of_those_below_it_and_no_student(
@@ -125,6 +129,77 @@ def test_a_row_that_names_a_group_is_the_title_of_those_below_it_and_no_student(
     found = [(entry.who.student, entry.who.group[-3:]) for entry in read_roster(file, load_task(TASK)).entries]
 
     assert found == [("Коваль Іван", "301"), ("Групань Олена", "302"), ("Лис Ян", "309")]
+
+
+def department_list(book: openpyxl.Workbook) -> None:
+    """Write a list with two rows of heads, whose columns are numbered, as departments have it."""
+    (sheet,) = book.worksheets
+    for row in (
+        ["Відомість обліку успішності № 12"],
+        ["№", "Студент", None, None, "№ зал. книжки", "№ варіанта"],
+        [None, "Прізвище", "Ім'я", "По батькові"],
+        [1, 2, 3, 4, 5, 6],
+        [1, "Коваль", "Ольга", "Іванівна", 1203450, "В-1"],
+        [2, "Коваль", "Олег", None, None, None],
+        [None, "Екзаменатор ______ доц. Іванов І.І."],
+        [None, "Нач. відділу ________ Лис О. О."],
+    ):
+        sheet.append(row)
+
+
+@pytest.mark.parametrize("merged", [False, True])
+def test_a_list_with_two_rows_of_heads_has_their_students_alone(tmp_path: Path, merged: bool) -> None:
+    department_list(book := openpyxl.Workbook())
+    for cells in ("A2:A3", "B2:D2", "E2:E3", "F2:F3") if merged else ():
+        book.worksheets[0].merge_cells(cells)
+    book.save(file := tmp_path / "class.xlsx")
+
+    listed = read_roster(file, load_task(TASK))
+
+    assert [(entry.who.student, entry.variant) for entry in listed.entries] == [
+        ("Коваль Ольга Іванівна", "1"),
+        ("Коваль Олег", ""),
+    ]
+    assert listed.unread == ()
+
+
+def test_who_has_neither_variant_nor_book_is_named(tmp_path: Path) -> None:
+    done = batch(TASK, roster(tmp_path, "Koval Ivan;;;", "Lys Yan;;3;"), tmp_path / "out", kinds=["svg"], jobs=1)
+
+    assert ["row 2, Koval Ivan: neither" in problem for problem in done.problems] == [True]
+
+
+def test_other_worksheets_that_hold_something_are_said_not_to_be_read(tmp_path: Path, run: Run) -> None:
+    department_list(book := openpyxl.Workbook())
+    book.create_sheet("АТ-302").append(["ПІБ", "Варіант"])
+    book.create_sheet("Аркуш3")
+    book.create_sheet("hidden").append(["ПІБ"])
+    book.worksheets[3].sheet_state = "hidden"
+    book.save(file := tmp_path / "class.xlsx")
+
+    (told,) = (one for one in check(TASK, roster=file).warnings if one.key == "sheets-unread")
+    _, _, err = run("batch", TASK, "--roster", str(file), "--out", str(tmp_path / "out"), "--as", "svg", "--lang", "en")
+
+    assert told.text("en").startswith("class.xlsx: only the first worksheet is read, not: АТ-302;")
+    assert told.text("en") in err
+
+
+@pytest.mark.parametrize(
+    ("heads", "who"),
+    [
+        ("Last name;First name;Email address;Groups;Task variant", Who("Lys Yan", "ME-21", email="a@b.ua")),
+        ("Прізвище;Ім'я;Ел. пошта;Групи;Варіант завдання", Who("Lys Yan", "ME-21", email="a@b.ua")),
+        ("Фамилия;Имя;Адрес электронной почты;Группы;Вариант", Who("Lys Yan", "ME-21", email="a@b.ua")),
+        ("Surname;Given name;E-mail;Section;Variant", Who("Lys Yan", "ME-21", email="a@b.ua")),
+        ("Surname;Given name;E-mail;Cohort;Variant", Who("Lys Yan", "ME-21", email="a@b.ua")),
+    ],
+)
+def test_heads_of_lists_that_moodle_writes_are_understood(folder: Path, heads: str, who: Who) -> None:
+    (file := folder / "class.csv").write_text(f"{heads}\nLys;Yan;a@b.ua;ME-21;V-3\n", encoding="utf-8")
+
+    (entry,) = read_roster(file, load_task(TASK)).entries
+
+    assert (entry.who, entry.variant) == (who, "3")
 
 
 def test_a_student_whose_name_begins_like_a_group_stays_one(tmp_path: Path) -> None:
@@ -172,7 +247,8 @@ def test_several_groups_over_a_list_or_in_a_cell_are_asked_about(folder: Path, t
 
 
 @pytest.mark.parametrize(
-    "said", ["1", "01", "V01", "В01", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 ", "1.0", "1,0"]
+    "said",
+    ["1", "01", "V01", "В01", "В-1", "v.1", "вар-1", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 ", "1.0", "1,0"],
 )
 @pytest.mark.parametrize("ids", [("1", "2"), ("V01", "V02"), ("v1", "v2"), ("01", "02")])
 def test_a_variant_is_meant_by_its_number_however_it_is_written(said: str, ids: tuple[str, ...]) -> None:
@@ -431,7 +507,7 @@ def test_scheme_and_variant_are_those_of_the_record_book(tmp_path: Path) -> None
     ]
     assert [problem.split(": ", 1)[1] for problem in done.problems] == [
         "B5: record book 'КБ-404' gives scheme 4, and only so many tasks are named: 3",
-        "row 6: neither a task nor a record book that gives one is written for this student; the tasks are: "
+        "row 6, E: neither a task nor a record book that gives one is written for this student; the tasks are: "
         + ", ".join(SCHEMES),
     ]
 
@@ -644,7 +720,10 @@ def test_columns_that_say_nothing_are_named(tmp_path: Path, run: Run) -> None:
 
 @pytest.mark.parametrize(
     ("variant", "said"),
-    [("x", r"csv: C3–C5, C8: .*x"), ("", "csv: row 3–5, 8: neither a variant nor a record book")],
+    [
+        ("x", r"csv: C3–C5, C8: .*x"),
+        ("", "csv: row 3–5, 8, Student 2, Student 3, Student 4, Student 7: neither a variant nor a record book"),
+    ],
 )
 def test_what_is_wrong_with_many_students_is_told_once(variant: str, said: str, tmp_path: Path) -> None:
     rows = [f"Student {n};MM;{variant if n in (2, 3, 4, 7) else 3};" for n in range(1, 9)]

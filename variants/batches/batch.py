@@ -54,8 +54,8 @@ NOTES = {NOTE: ".pdf", "docx": ".docx"}
 FORMS = (*SHEETS, *NOTES, HANDOUT, CARD)
 _SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
-# a problem: file, column or the word for a row, its number, what it is
-_PLACED = re.compile(r"(.+?: )([A-Z]{0,3}|\w+ )([0-9]+)([:,] .+)", re.DOTALL)
+# a problem: file, column or the word for a row, its number, whose row it is, what it is
+_PLACED = re.compile(r"(.+?: )([A-Z]{0,3}|\w+ (?=[0-9]+(, [^:]+)?))([0-9]+)(?:\3)?([:,] .+)", re.DOTALL)
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
 
 
@@ -122,12 +122,15 @@ class Batch:
     @property
     def told(self) -> list[str]:
         """The same problems, in one line those that several students have: `class.csv: E3–E6, E9: no such variant`."""
-        several = dict[tuple[str, str, str], list[int]]()
+        several = dict[tuple[str, str, str], dict[int, str]]()
         for problem in self.problems:
             found = _PLACED.fullmatch(problem)
-            before, column, row, after = found.groups() if found else (problem, "", "", "")
-            several.setdefault((before, column, after), []).extend([int(row)] if row else [])
-        return [f"{before}{_spans(rows, column)}{after}" for (before, column, after), rows in several.items()]
+            before, column, whose, row, after = found.groups("") if found else (problem, "", "", "", "")
+            several.setdefault((before, column, after), {}).update({int(row): whose} if row else {})
+        return [
+            f"{before}{_spans([*rows], column)}{''.join(rows.values())}{after}"
+            for (before, column, after), rows in several.items()
+        ]
 
 
 def _spans(rows: Sequence[int], column: str) -> str:
@@ -456,7 +459,8 @@ def batch(
         doubled.append(InputError("roster-nameless", n=nameless))
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
     removed = (InputError("batch-gone", n=len(gone), file=quote(gone[0], SHOWN)),) if gone else ()
-    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice, *removed))
+    columns = (error,) if listed.unread else ()
+    done = Batch(students, outcomes, (*listed.sheets, *columns, *doubled, *groups, *twice, *removed))
     for name, rows in _tables(done, once, lang):
         _put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     whole = dict[str, bytes]()

@@ -181,7 +181,8 @@ class Check(Terms):
         groups = of_several_groups(entry.who for entry in entries)
         others = [task for task in (self.roster.elsewhere if self.roster else ()) if task not in bundled()]
         named = [InputError("roster-elsewhere", tasks=quote(", ".join(others), SHOWN))] if others else []
-        return (*wrong, *books, *shared_by_mistake(students, possible), *groups, *named)
+        sheets = self.roster.sheets if self.roster else ()
+        return (*sheets, *wrong, *books, *shared_by_mistake(students, possible), *groups, *named)
 
     def ordered(self, answers: Iterable[Answers]) -> list[Answers]:
         """Return answers in the order of the roster; those of strangers, and all without one, by their names."""

@@ -128,12 +128,14 @@ def _read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn |
         kinds = _first(map(column_kind, texts))
         if "name" in kinds and not kinds.keys().isdisjoint(PARTS):
             return [_form(grid, row, kinds, asked)]
+        headed = grid.joined(row)
+        texts = headed.rows[row]
         parts = ((column, quantity_part(text)) for column, text in enumerate(_with_greek(texts, asked)))
         meant = ((column, (asked.meant(part[0]), *part[1:])) for column, part in parts if part is not None)
         columns = {column: part for column, part in meant if part[0] in asked.names}
         about = _first(map(about_kind, texts))
         if len(columns) > 1 or (columns and about):
-            students = list(_class(grid, row, columns, about, asked, warn))
+            students = list(_class(headed, row, columns, about, asked, warn))
             if len(students) > 1 and about.keys().isdisjoint(NAMED):
                 raise LocatedError(grid.place(row), InputError("answers-nameless"))
             return students

@@ -18,6 +18,7 @@ import zipfile
 import zlib
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from datetime import date, time, timedelta
 from itertools import islice
 from pathlib import Path
@@ -29,12 +30,13 @@ from ...scales.numbers import SHOWN, quote
 from ..drawings.apart import handed_in
 from . import grid
 
-MOST_PARTS = 2_000
+MOST_PARTS, MOST_SHEETS = 2_000, 50
 RATIO, FREE = 250, 1_000_000  # times its size that a part may unpack into, from so many bytes on
 DEEPEST, STEP = 50, 32_768  # elements in one another; bytes parsed at a time
 MOST_TAGS = 1_300_000  # in all: a class of 1000 with 259 numbers each has 1,040,000
 TEXT, LOOK = 3, 8  # cells that a text, or a look of a cell, counts for: so much longer it takes
 BLANKS = 50  # rows or cells left out that count for one
+LOOKED_AT = 65_536  # bytes of a worksheet in which a value is looked for
 EXACT = 1e15  # whole numbers below are written as such
 TIMES = (date, time, timedelta)
 MOST_FORMATS, LONGEST_FORMAT, MOST_BRACKETS = 1_000, 255, 10  # of numbers, made in the file; programs make 250
@@ -44,6 +46,7 @@ _REFUSED = re.compile(rb"<!(?:DOCTYPE|ENTITY)|\0")  # declarations; signs that n
 _LONG = re.compile(b"<[^<>]{200000}")  # tags that no program writes
 _ESCAPED = re.compile("_x((?!D[89A-Fa-f])[0-9A-Fa-f]{4})_", re.IGNORECASE)
 _RANGE = re.compile("([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})")
+_VALUE = re.compile(rb"<(?:\w+:)?(?:v|is)>")
 _PLACE = re.compile("[0-9]{1,7}")  # of a text among those that are shared, of a row
 SEPARATORS = (";", "\t", ",")
 _ZIP = b"PK\x03\x04"
@@ -140,9 +143,10 @@ def _grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
         with zipfile.ZipFile(io.BytesIO(data)) as archive, warnings.catch_warnings():
             warnings.simplefilter("ignore")
             parts = _Parts(archive, file)
-            first, others = _related(parts)
+            (_, first), more, others = _related(parts)
             sheet = _Sheet(parts, _texts(parts, others.get("sharedStrings")), _dates(parts, others.get("styles")))
             sheet.read(first)
+            sheets = tuple(name for name, part in more[:MOST_SHEETS] if parts.holds(part))
     except InputError:
         raise
     except (  # whatever an archive, a parser, or openpyxl does not like
@@ -152,7 +156,7 @@ def _grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
         raise InputError("answers-not-xlsx", file=quote(file, SHOWN)) from problem
     merged = grid.by_row(sheet.merged, len(sheet.rows))
     rows = grid.bounded(file, list(map(tuple, sheet.rows)))
-    return grid.Grid(file, rows, frozenset(sheet.formulas), frozenset(sheet.days), merged)
+    return grid.Grid(file, rows, frozenset(sheet.formulas), frozenset(sheet.days), merged, sheets)
 
 
 def _bomb(file: str) -> InputError:
@@ -193,6 +197,15 @@ class _Parts:
             raise _BrokenError
         return data.replace(_STRICT, _MAIN)
 
+    def holds(self, name: str) -> bool:
+        """Whether a worksheet that is not read has a value near its beginning."""
+        with (
+            suppress(KeyError, zipfile.BadZipFile, zlib.error, OSError, RuntimeError),
+            self.archive.open(name) as stream,
+        ):
+            return _VALUE.search(stream.read(LOOKED_AT)) is not None
+        return False
+
     def walk(self, name: str) -> Iterator[tuple[int, str, str, Any, bool]]:
         """Go through a part: depth of each element down to cells, part of the root, tag, and whether it has ended."""
         section, depth = "", 0
@@ -223,22 +236,23 @@ class _Parts:
                     raise _BrokenError
 
 
-def _related(parts: _Parts) -> tuple[str, dict[str, str]]:
-    """Return the part that holds the first sheet of the workbook, and its texts and formats by kind."""
-    ids: list[str] = []
+def _related(parts: _Parts) -> tuple[tuple[str, str], list[tuple[str, str]], dict[str, str]]:
+    """Return name and part of the first sheet of the workbook, those of others, and its texts and formats by kind."""
+    ids: dict[str, str] = {}
     targets: dict[str, tuple[str, str]] = {}
     for _, _, tag, element, ended in parts.walk("xl/workbook.xml"):
         if tag == "sheet" and not ended:
-            ids += (value for key, value in element.attrib.items() if key.endswith("}id"))
+            named = element.get("name", "") if element.get("state", "visible") == "visible" else ""
+            ids |= {value: named for key, value in element.attrib.items() if key.endswith("}id")}
     for _, _, tag, element, ended in parts.walk("xl/_rels/workbook.xml.rels"):
         if tag == "Relationship" and not ended:
             target = element.attrib["Target"]
             whole = target.lstrip("/") if target.startswith("/") else posixpath.normpath(f"xl/{target}")
             targets[element.attrib["Id"]] = element.get("Type", "").rpartition("/")[2], whole
-    first = next((targets[name][1] for name in ids if targets[name][0] == "worksheet"), None)
-    if first is None:
+    sheets = [(name, targets[id][1]) for id, name in ids.items() if targets[id][0] == "worksheet"]
+    if not sheets:
         raise _BrokenError
-    return first, dict(targets.values())
+    return sheets[0], [one for one in sheets[1:] if one[0]], dict(targets.values())
 
 
 def _texts(parts: _Parts, name: str | None) -> list[str]:

@@ -7,9 +7,10 @@ import unicodedata
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import takewhile
+from pathlib import Path
 from typing import Any, TypeAlias
 
 from ...scales.errors import InputError, RowOf, Written
@@ -23,6 +24,7 @@ MOST_MERGED = 100_000  # rows of ranges of merged cells that are looked at
 MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 20_000, 1_000, 270_000
 SUFFIXES = (".csv", ".xlsx")
 LOOKED_AT = 60  # rows in which the header is looked for
+FEWEST = 3  # numbers of columns below a header that are such
 LONGEST_HEAD = 300  # characters over a column; what is longer says nothing of one
 UNDERSTOOD: Mapping[str, Any] = packaged(__package__, "texts", "understood")
 _COLUMN_OF = {word: kind for kind, words in UNDERSTOOD["columns"].items() for word in words}
@@ -42,7 +44,12 @@ _NUMBERED = {kind: re.compile(rf"\s*(?:{words})\.?\s*№?\s*", re.IGNORECASE) fo
 # what stands in a row below a list that sums it up: `Всього: 28`, `Разом студентів – 28`, `Total`
 _TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})\b")
 _SIGNED = re.compile(rf"(?:{'|'.join(UNDERSTOOD['signed'])})\b")
-_TITLE = re.compile(rf"(?:{'|'.join(UNDERSTOOD['titles'])})\b(?P<ends>\s*[.:№]*)\s*(?P<name>.*)", re.IGNORECASE)
+_TO_SIGN = "__"  # where somebody signs
+_LIST = re.compile(rf"(?:{'|'.join(UNDERSTOOD['lists'])})\b", re.IGNORECASE)
+_OF_GROUP = rf"\b(?:{'|'.join(UNDERSTOOD['titles'])})\b(?P<ends>\s*[.:№]*)\s*"
+_TITLE = re.compile(rf"{_OF_GROUP}(?P<name>.*)", re.IGNORECASE)
+_CODED = r"(?:(?-i:[A-ZА-ЯЇІЄҐ]{1,6}) \d{1,4}\w{0,2}|(?=[^\s,;(]*[^\W\d])[^\s,;(]*\d[^\s,;(]*)"  # AT 301, AT-301
+_WITHIN = re.compile(rf"{_OF_GROUP}(?P<name>(?:{_CODED}|\d{{1,3}}(?=\s*(?:[,;.(]|$))).*)", re.IGNORECASE)
 _BETWEEN_GROUPS = re.compile(rf"\s*[,;&+]\s*|\s+(?:{'|'.join(UNDERSTOOD['ands'])})\s+", re.IGNORECASE)
 _GROUP = re.compile(r"(?:[^\W\d_]{1,6}[-–.]?|[A-ZА-ЯЇІЄҐ]{1,6} )\d{1,4}\w{0,2}|\d{1,3}")
 _LETTERS_AND_DIGITS = re.compile(r"[^\W\d].*\d|\d.*[^\W\d]")
@@ -72,7 +79,8 @@ class Grid:
     """The texts of a file's cells by row.
 
     `formulas` and `dates` are cells (row, column) with a formula that nobody has worked out, or with a date; `merged`
-    are those that are one, by row, from left to right: first and last column, and the row that has the text.
+    are those that are one, by row, from left to right: first and last column, and the row that has the text. `sheets`
+    are other worksheets with something in them, which are not read.
     """
 
     file: str
@@ -80,11 +88,18 @@ class Grid:
     formulas: frozenset[tuple[int, int]] = field(default_factory=frozenset)
     dates: frozenset[tuple[int, int]] = field(default_factory=frozenset)
     merged: Merged = field(default_factory=dict)
+    sheets: tuple[str, ...] = ()
 
     def text(self, row: int, column: int | None) -> str:
         """Return what a cell shows, nothing beyond the end of its row."""
         cells = self.rows[row]
         return cells[column] if column is not None and column < len(cells) else ""
+
+    @property
+    def unread(self) -> tuple[InputError, ...]:
+        """That other worksheets are not read, where there are any."""
+        names = Written(", ".join(quote(name, SHOWN) for name in self.sheets))
+        return (InputError("sheets-unread", file=quote(Path(self.file).name, SHOWN), sheets=names),) if names else ()
 
     def totals(self, row: int) -> bool:
         """Tell whether a row below a list of students only sums it up, or is signed: no row of a student's.
@@ -92,35 +107,74 @@ class Grid:
         Words may stand in it, then, or numbers, but not both beside one another as of somebody who is called so.
         """
         first, *others = [*filter(None, self.rows[row])] or [""]
+        if _TO_SIGN in "".join((first, *others)):
+            return True
         if _TOTAL.match(tidy(first)):
             return not any(map(str.isalpha, "".join(others)))
         return _SIGNED.match(tidy(first)) is not None and not any(map(str.isdigit, "".join(others)))
 
-    def title(self, row: int) -> str:
+    def title(self, row: int, above: bool = False) -> str:
         """Return the group whose title a row is, `Група АТ-301`, in one cell or two; else nothing.
 
-        In two cells its name has letters and digits, or a colon before it: a student may be called Група, too.
+        In two cells its name has letters and digits, or a colon before it: a student may be called Група, too. It may
+        stand within the title of a list in one cell, or in any row `above` all lists, where it has letters and digits.
         """
         cells = [*filter(None, self.rows[row])]
-        text = " ".join(" ".join(cells).split()) if len(cells) in (1, 2) else ""
-        found = _TITLE.fullmatch(text) if len(text) <= LONGEST_HEAD else None
-        if found is None or (len(cells) == 2 and found["name"].split() != cells[1].split()):
+        text = " ".join(" ".join(cells).split())
+        if len(text) > LONGEST_HEAD:
             return ""
-        sure = len(cells) == 1 or ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
+        found = _TITLE.fullmatch(text) if len(cells) in (1, 2) else None
+        if found is not None and len(cells) == 2:
+            sure = ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
+            found = found if sure and found["name"].split() == cells[1].split() else None
+        if found is None and (above or (len(cells) == 1 and _LIST.match(text))):
+            found = _WITHIN.search(text)
+        if found is None:
+            return ""
         # what is behind a name is no part of it, unless it is the name of another group
-        return several_groups(found["name"]) or re.split("[,;(]", found["name"])[0].rstrip(" :.") if sure else ""
+        name, coded = found["name"], re.match(_CODED, found["name"])
+        return several_groups(name) or (coded[0] if coded else re.split("[,;(]", name)[0]).strip(' :."«»“”')
 
     def students(self, header: int) -> Iterator[tuple[int, str]]:
         """Go through the rows of students below a header, each with the group in whose list it stands, if one is named.
 
-        Left out are titles of groups, sums, signatures, and the header again, as it stands over each group.
+        Left out are titles of groups, sums, signatures, numbers of columns, and the header again, as it stands over
+        each group.
         """
-        group = next(filter(None, map(self.title, reversed(range(header)))), "")
+        group = next(filter(None, (self.title(row, above=True) for row in reversed(range(header)))), "")
         for row in range(header + 1, len(self.rows)):
             if title := self.title(row):
                 group = title
             elif any(self.rows[row]) and self.rows[row] != self.rows[header] and not self.totals(row):
-                yield row, group
+                filled = [*filter(None, self.rows[row])]
+                if len(filled) < FEWEST or filled != [str(number) for number in range(1, len(filled) + 1)]:
+                    yield row, group
+
+    def joined(self, header: int) -> Grid:
+        """Return the grid with a header of two rows in one: `Студент` may stand over `Прізвище` and `Ім'я`.
+
+        The lower row has words, each under a head of several columns; wherever both stand over a list they are joined.
+        """
+        upper, lower = self.rows[header : header + 2] if header + 1 < len(self.rows) else ((), ())
+        wide = [column for column, text in enumerate(lower) if text]
+
+        def told(cells: Iterable[str]) -> bool:
+            return any(about_kind(text) or MIXED.match(latin(text)) for text in cells)
+
+        under = all(not (self.text(header, column) and self.text(header, column + 1)) for column in wide)
+        plain = not any(lower[column][0].isdigit() for column in wide)
+        if not (under and plain and told(lower) and told(upper)) or self.title(header):
+            return self
+        width = max(len(upper), len(lower))
+        heads = tuple(self.text(header + 1, column) or self.text(header, column) for column in range(width))
+        rows, above = list[tuple[str, ...]](), None
+        for cells in self.rows:
+            both = above == upper and cells == lower
+            if both:
+                rows[-1] = heads
+            rows.append(() if both else cells)
+            above = cells
+        return replace(self, rows=tuple(rows))
 
     def shared(self, row: int, column: int) -> str:
         """Return what a cell shows, within a merged one what that shows."""
@@ -132,10 +186,12 @@ class Grid:
         first, last, top = ranges[at] if at >= 0 else (column, column, row)
         return self.text(top, first) if column <= last else ""
 
-    def place(self, row: int, column: int | None = None) -> str:
-        """Return the address of a cell as a spreadsheet shows it, `answers.csv: D12`, or of a row."""
+    def place(self, row: int, column: int | None = None, of: str = "") -> str:
+        """Return the address of a cell as a spreadsheet shows it, `answers.csv: D12`, or of a row, that `of` a name."""
         file = _shown(self.file)
-        return RowOf(file, row + 1) if column is None else Written(f"{file}: {letters(column)}{row + 1}")
+        if column is not None:
+            return Written(f"{file}: {letters(column)}{row + 1}")
+        return RowOf(file, f"{row + 1}, {quote(of, SHOWN)}" if of else row + 1)
 
 
 @cache
