@@ -425,16 +425,17 @@ def as_printed(law: Callable[..., float], inputs: Sequence[Input]) -> float:
 
 
 class Shown(NamedTuple):
-    """How a result is printed: its unit, how many of it an SI unit has, and its decimals if these are said."""
+    """How a result is printed: its unit, how many of it an SI unit has, its decimals if these are said, its power."""
 
     unit: str = ""
     times: float = 1.0
     decimals: int | None = None
+    sign: str = ""
 
 
 def worked(words: Words, name: str, law: str, inputs: Sequence[Input], shown: Shown) -> tuple[str, ...]:
     """Return `name = formula = numbers = result unit` of a law, printed so that it recomputes."""
-    unit, times, decimals = shown
+    unit, times, decimals, sign = shown
 
     def of_printed(*numbers: float) -> float:
         return float(LAWS[law](*(number / one.times for number, one in zip(numbers, inputs, strict=True)))) * times
@@ -444,7 +445,7 @@ def worked(words: Words, name: str, law: str, inputs: Sequence[Input], shown: Sh
     numbers = [Symbol.of(text + one.sign) for text, one in zip(texts, inputs, strict=True)]
     formula, reckoned = (str(form_of(law)(*terms)).replace("tan", words.symbol("tan")) for terms in (letters, numbers))
     gap = "" if unit == "deg" else " "
-    said = f"= {result}{gap}{words.unit(unit)}" if unit else f"= {result}"
+    said = f"= {result}{sign}{gap}{words.unit(unit)}" if unit else f"= {result}{sign}"
     return f"{words.symbol(name)} = {formula}", f"= {reckoned}", said
 
 

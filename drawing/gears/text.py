@@ -75,7 +75,7 @@ def _named(scene: GearScene, name: str) -> str:
 
 def _number(scene: GearScene, name: str) -> str:
     """Return a quantity as its row has it: a given as it is, what is undefined as a dash."""
-    value, words, (_, times, decimals) = scene.size(name), scene.words, _printed(name)
+    value, words, (_, times, decimals, _) = scene.size(name), scene.words, _printed(name)
     if not math.isfinite(value):
         return words["table.calculated"]
     if role(name).kind == "z":
@@ -145,7 +145,7 @@ def _condition(scene: GearScene, check: Check) -> str:
 
 def _side(scene: GearScene, check: Check, value: float) -> str:
     """Return one side of a check, lengths in mm."""
-    unit, times, decimals = _printed(check.quantity)
+    unit, times, decimals, _ = _printed(check.quantity)
     number = scene.words.number(value * times, decimals or 0)
     return f"{number} {scene.words.unit(unit)}" if unit else number
 
@@ -190,7 +190,7 @@ def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> L
     """Return the calculations of quantities, under one symbol if that is named; without what is undefined."""
     words, lines = scene.words, Lines()
     for step in (scene.solved.program.by_name[name] for name in names if math.isfinite(scene.size(name))):
-        unit, times, decimals = _printed(step.name)
+        unit, times, decimals, _ = _printed(step.name)
         if not _prints(step.law, len(step.operands)):
             number = words.number(scene.size(step.name) * times, decimals or 0)
             lines.append((f"{words.symbol(symbol or step.name)} = {number}{words.unit(unit) if unit else ''}",))
@@ -210,7 +210,7 @@ def _printed(name: str) -> Shown:
 
 def _input(scene: GearScene, name: str) -> Input:
     """Return a quantity with its number as it is printed; a short one as it is."""
-    unit, times, decimals = _printed(name)
+    unit, times, decimals, _ = _printed(name)
     value = scene.size(name) * times
     short = round(value, SHORT)
     exact = abs(value - short) < NOISE

@@ -18,6 +18,8 @@ from ..figure import SubjectScene
 from ..printed import decimals_for
 from ..words import Words
 
+LETTERS = {"_y_F_12_t1": "y(t_{1})", "_osc_F_12_t1": "δ(t_{1})", "_dF_t1": "F′_{12}(t_{1})"}  # at the lift-off
+LETTERS |= {"_height": "mg/C", "_dy_t1": "y′(t_{1})", "_dosc_t1": "δ′(t_{1})"}
 UNITS = {SCALES[SCHEME]: "m", SCALES[CIRCLE]: "N"}  # of the scale factors that may be chosen
 
 
@@ -29,7 +31,7 @@ class HoistScene(SubjectScene[SolvedHoist]):
 
     def size(self, name: str) -> float:
         """Return a quantity or a given, SI."""
-        return float(self.solved.forces.found[name])
+        return float(self.solved.values[name] if name in LETTERS else self.solved.forces.found[name])
 
     def sum_of(self, *names: str) -> float:
         """Return the sum of quantities as they are printed, SI."""
@@ -61,7 +63,7 @@ class HoistScene(SubjectScene[SolvedHoist]):
 
 def lettered(words: Words, solved: SolvedHoist) -> Words:
     """Return the words with the letters of a hoist's quantities, with as many roots of (12) as it has."""
-    table = words.letters_of("hoist")
+    table = words.letters_of("hoist") | LETTERS
     drawn = table.pop("drawn")
     for n in range(1, len(solved.layout.roots.times if solved.layout.roots else ()) + 1):
         table |= {f"t_2_{n}": f"t_{{2}}({n})", f"t_2_{n}_drawn": f"t^{{{drawn}}}_{{2}}({n})"}

@@ -13,9 +13,9 @@ from ...plans.laws import form_of
 from ...plans.names import role
 from ...scales.scale import Scale
 from ...scales.units import USUAL, unit
-from ..handouts import Shown
+from ..handouts import Shown as Begun
 from ..notes.blocks import Story
-from ..printed import Input, Symbol, calculation
+from ..printed import Input, Shown, Symbol, calculation, number_of, places_of, worked
 from ..tables import givens_view, table, text_block, words_of
 from ..view import View
 from ..words import Given, Words
@@ -80,9 +80,9 @@ def _head(words: Words, *columns: str) -> list[str]:
     return [words[f"table.{column}"] for column in columns]
 
 
-def begun(scene: HoistScene, steps: int) -> dict[str, Shown]:
+def begun(scene: HoistScene, steps: int) -> dict[str, Begun]:
     """Return what handouts show of the tables: the two columns in which the checks are asked."""
-    return {"checks": Shown(rows=frozenset(), columns=2)}
+    return {"checks": Begun(rows=frozenset(), columns=2)}
 
 
 def scales_table(scene: HoistScene) -> View:
@@ -129,11 +129,18 @@ def _ratio(
 # quantities that follow from others, and the numbers of their formulas in the article
 REDUCED = ("m", "alpha_0", "C_01", "alpha_2", "C_2", "C_k", "C_12", "C", "k", "k_1")
 SLACK = "V_t"
-STARTED, HANGING = ("P_m", "D_0", "R"), ("T_1", "P_12_max", "P_12_min")
+LIFTED = ("_y_F_12_t1", "_osc_F_12_t1", "F_12_t1")
+STARTED, RATES, HANGING = ("P_m", "D_0"), ("_dy_t1", "_dosc_t1", "_dF_t1"), ("T_1", "P_12_max", "P_12_min")
 BENT = ("w_0_max", "x_w0", "w_2_max", "x_w2")
 NUMBERS = {"m": "4", "alpha_0": "6", "C_01": "5", **dict.fromkeys(("alpha_2", "C_2", "C_k", "C_12"), "7")}
-NUMBERS |= dict.fromkeys(("T_1", "P_12_max"), "15′")
-BY_DRAWING = {"R": ("hypotenuse", ("D_0", "D_1"))}  # what is read from a drawing, as it is calculated
+NUMBERS |= {"F_12_t1": "10", **dict.fromkeys(("T_1", "P_12_max"), "15′")}
+UNITS = {"_dF_t1": "N/s", "_dy_t1": "m/s", "_dosc_t1": "m/s"}
+# what is read from a drawing, or in several steps, as it is calculated
+TOLD_BY = {
+    "R": ("hypotenuse", ("D_0", "D_1")),
+    "F_12_t1": ("rope_force_of_both", ("C", "C_12", "C_01", "_osc_F_12_t1", "_y_F_12_t1")),
+    "_dF_t1": ("rope_force_of_both", ("C", "C_12", "C_01", "_dosc_t1", "_dy_t1")),
+}
 
 
 def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:
@@ -143,17 +150,14 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
     """
     moved = scene.solved.forces.motion is not None
     slack = (SLACK,) if scene.size("slack") > 0.0 else ()
-    words = scene.words
-    rate = (
-        f"{words.symbol('D_1')} = F′_{{12}}(t_{{1}})/k_{{1}}",
-        f"= {scene.value(scene.size('D_1'))} {words.unit('N')}",
-    )
-    circle = (*_lines(scene, STARTED[:2]), rate, *_lines(scene, STARTED[2:]))
+    rate = f"{scene.words.symbol('_dF_t1')} = {_number(scene, scene.size('_dF_t1'))} {scene.words.unit('N/s')}"
+    rates = ((rate,),) if moved else _lines(scene, RATES)
+    circle = (*_lines(scene, STARTED), *rates, *_lines(scene, ("D_1", "R")))
     equations = {
         "model": _lines(scene, (*REDUCED, *slack)),
         "lift_off": () if moved else _lift_off(scene),
         "extremes": () if moved else _resting(scene),
-        "circle": circle if moved else (*circle, *_lines(scene, HANGING)),
+        "circle": circle if moved else (*circle, _angle(scene), *_lines(scene, HANGING)),
         "beams": _lines(scene, BENT),
     }
     said = _said(scene, scales)
@@ -163,14 +167,38 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
 
 def formula(scene: HoistScene, told: str) -> tuple[str, ...]:
     """Return the formula of a quantity with letters, with numbers and its value; what is infinite is not put in."""
-    step, words = scene.solved.program.by_name[told], scene.words
-    law, names = BY_DRAWING.get(told) or (step.law, step.operands)
-    chunks = [f"{words.symbol(told)} = {form_of(law)(*(Symbol.of(words.symbol(name)) for name in names))}"]
-    if all(math.isfinite(scene.size(name)) for name in names):
-        chunks.append(f"= {form_of(law)(*(Symbol.of(_number(scene, scene.size(name))) for name in names))}")
-    unit = f" {words.unit(unit_of(told))}" if unit_of(told) != "1" else ""
-    chunks.append(f"= {_number(scene, scene.size(told))}{unit}")
-    return (*chunks, _cited(NUMBERS[told])) if told in NUMBERS else tuple(chunks)
+    step = scene.solved.program.by_name[told]
+    law, names = TOLD_BY.get(told) or (step.law, step.operands)
+    return (*_worked(scene, told, law, names), *([_cited(NUMBERS[told])] if told in NUMBERS else []))
+
+
+def _worked(scene: HoistScene, told: str, law: str, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return how a law gives a quantity, in letters and in numbers, so that it recomputes."""
+    inputs, result = [_input(scene, name) for name in names], _input(scene, told)
+    unit = UNITS.get(told) or unit_of(told)
+    unit = "" if unit == "1" else unit
+    if all(math.isfinite(one.value) for one in inputs):
+        return worked(scene.words, told, law, inputs, Shown(unit, result.times, places_of(result.told), result.sign))
+    letters = form_of(law)(*(Symbol.of(scene.words.symbol(name)) for name in names))
+    value = f"= {_number(scene, scene.size(told))} {scene.words.unit(unit) if unit else ''}".rstrip()
+    return f"{scene.words.symbol(told)} = {letters}", value
+
+
+def _angle(scene: HoistScene) -> tuple[str, ...]:
+    """Return the angle from the starting point of the circle to its right end, from 0 to 2π."""
+    right = scene.size("D_0") > 0.0
+    law = f"angle_{'left' if not right else 'above' if scene.size('D_1') >= 0.0 else 'below'}"
+    return _worked(scene, "phi_1", law, ("D_1", "D_0"))
+
+
+def _input(scene: HoistScene, name: str) -> Input:
+    """Return a quantity as it is printed, a very large or small one before its power of ten."""
+    text = _number(scene, scene.size(name))
+    told, _, power = text.partition("·10^{")
+    times = 10.0 ** -number_of(power.rstrip("}")) if power else 1.0
+    value = float(f"{scene.size(name) * times:.{ROUNDING}g}")
+    exact = name in scene.givens or (math.isfinite(value) and value == number_of(told))
+    return Input(value, exact, name=name, sign=text.removeprefix(told), times=times, told="" if exact else told)
 
 
 def _cited(number: str) -> str:
@@ -197,11 +225,11 @@ def _number(scene: HoistScene, value: float) -> str:
 def _lift_off(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     V = scene.words.symbol("V_t")
     wound = form_of("wound")(*(Symbol.of(letter) for letter in (V, "a", "t")))
-    height = f"= {_number(scene, scene.size('P_st') / scene.size('C'))} {scene.words.unit('m')}"
+    _, *height = _worked(scene, "_height", "ratio", ("P_st", "C"))
     return (
         (f"y(t) = {wound}",),
         (f"δ(t) = (a/k^{{2}})·(1 − cos kt) + ({V}/k)·sin kt",),
-        ("y(t) − δ(t) = mg/C", height, _cited("11")),
+        ("y(t) − δ(t) = mg/C", *height, _cited("11")),
         (scene.stated("t_1", unit="s"),),
     )
 
@@ -213,7 +241,7 @@ def _resting(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     return (
         (f"(a/k)·sin kt + {V}·cos kt = −{ratio}·({V} + a·t)", _cited("12")),
         (force, _cited("10")),
-        (scene.stated("F_12_t1"),),
+        *_lines(scene, LIFTED),
         (scene.stated("F_12_max"),),
     )
 

@@ -106,8 +106,11 @@ define(
     wound=lambda V, a, t: V * t + 0.5 * a * t * t,
     winding_speed=lambda V, a, t: V + a * t,
     # osc = (a / k^2) (1 - cos k t) + (V / k) sin k t
-    oscillation=_oscillation,
-    oscillation_rate=_oscillation_rate,
+    oscillation=(
+        _oscillation,
+        lambda V, a, k, t: a / k**2 * (1.0 - np.cos(k * t)) + V / k * np.sin(k * t),
+    ),
+    oscillation_rate=(_oscillation_rate, lambda V, a, k, t: a / k * np.sin(k * t) + V * np.cos(k * t)),
     # y - osc, and its rate
     lagging=_lagging,
     load_rate=_load_rate,
@@ -115,6 +118,7 @@ define(
     support_force=lambda C, lagging, weight: C * lagging - weight,
     # (10) F_12 = C y + C (C_12 / C_01) osc, with C C_12 / C_01 = mu C_12; the rate likewise
     rope_force=lambda C, wound, C_osc, oscillation: C * wound + C_osc * oscillation,
+    rope_force_of_both=lambda C, C_12, C_01, oscillation, wound: C * (C_12 / C_01 * oscillation + wound),
     # (12), and its solutions: when the force of the rope was last greatest, and when first least
     last_maximum=roots.last_maximum,
     first_minimum=roots.first_minimum,
@@ -128,6 +132,9 @@ define(
     swing=lambda swing, rate, k, t: swing * np.cos(k * t) + rate * np.sin(k * t),
     suspended_force=lambda mean, swing: mean + swing,
     # (15') R and k_1 T_1 are read from the circle; the angle is one from 0 to 2 pi
+    angle_above=lambda side, along: np.arctan(side / along),
+    angle_left=lambda side, along: math.pi + np.arctan(side / along),
+    angle_below=lambda side, along: TURN + np.arctan(side / along),
     whole_angle=lambda angle: angle + TURN * (angle < 0.0),
     # s = y - m g / C_01 - P_12 / C_12
     height=lambda wound, weight, C_01, force, C_12: wound - weight / C_01 - force / C_12,

@@ -228,7 +228,7 @@ def test_drawn_roots_are_crossings_and_the_circle_has_the_swing(case: HoistCase)
     mean = 0.5 * (found["P_12_max"] + found["P_12_min"])
     assert (begin - centre).real * of_P == pytest.approx(found["F_12_t1"] - mean, abs=NEAR * of_P)
     angle = np.angle(begin - centre) % (2.0 * math.pi)
-    assert printed(circle, "k_{1}T_{1}") == pytest.approx(angle, rel=1e-3)
+    assert printed(circle, "φ_{1}") == pytest.approx(angle, rel=1e-3)
 
 
 @every_case

@@ -9,7 +9,7 @@ import pytest
 
 from kulman import note
 from kulman.drawing.handouts import begun_pages
-from kulman.drawing.hoist.text import BENT, BY_DRAWING, HANGING, REDUCED, SLACK, STARTED
+from kulman.drawing.hoist.text import BENT, HANGING, LIFTED, RATES, REDUCED, SLACK, STARTED, TOLD_BY
 from kulman.drawing.notes.blocks import Equations, Steps
 from kulman.drawing.shapes import Line, Text
 from kulman.plans.hoist.forces import forces
@@ -61,10 +61,10 @@ def test_every_sentence_about_a_figure_is_that_of_a_stage() -> None:
 @pytest.mark.parametrize("variant", ["V01", "V03", "V04", "V09", "V10"])
 def test_expressions_that_are_printed_give_the_results(variant: str) -> None:
     solved = solve_case(TASK, variant, {"slack": "0.03 m"}).solved
-    found = dict(forces(solved.givens).found)
-    for told in (*REDUCED, SLACK, *STARTED, *HANGING, *BENT):
+    found = {**solved.values, **forces(solved.givens).found}
+    for told in (*REDUCED, SLACK, *LIFTED, *STARTED, *RATES, "D_1", "R", *HANGING, *BENT):
         step = solved.program.by_name[told]
-        law, names = BY_DRAWING.get(told) or (step.law, step.operands)
+        law, names = TOLD_BY.get(told) or (step.law, step.operands)
         value = form_of(law)(*(found[name] for name in names))
         assert value == pytest.approx(found[told], rel=1e-12, abs=1e-300), told
 

@@ -37,10 +37,13 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
 from kulman.tests.notes import test_docx as in_word
-from kulman.tests.support.cases import solve_case
+from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
+from kulman.tests.support.printed_numbers import calculations, equation_faults, evaluate, recomputes
+from kulman.tests.support.readback import read_back
 from kulman.variants.case import Case, Settings
 from kulman.variants.notes import Note
+from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled, bundled_text
 
 PATH = pypdfium2.raw.FPDF_PAGEOBJ_PATH
@@ -588,3 +591,26 @@ def test_a_figure_is_reduced_only_where_it_shows_in_per_cent() -> None:
 
     for share, lines in shares.items():
         assert said_under(SimpleNamespace(under=("A",), share=share), said) == ("A", *lines)
+
+
+ROCKER = str(Path(__file__).resolve().parents[2] / "docs" / "examples" / "rocker-cam.toml")
+OTHERS = [(task, variant, {}) for task in (HOIST, CAM, GEAR, ROCKER) for variant in load_task(task).variants]
+OTHERS += [(HOIST, "V03", set) for set in ({"I_0": "inf", "I_2": "inf"}, {"V_0": "4 m/s"}, {"slack": "0.03 m"})]
+OTHERS += [(task, variant, {}) for task in bundled("mechanism") for variant in load_task(task).variants]
+
+
+@pytest.mark.parametrize(("task", "variant", "changed"), some(OTHERS, *range(17), 30, 60, 105, 140))
+def test_every_printed_equation_of_note_and_sheet_recomputes_to_its_last_digit(
+    task: str, variant: str, changed: dict[str, str]
+) -> None:
+    lang = LANGUAGES[len(variant + task) % 3]
+    written = note(task, variant, set=changed, lang=lang)
+
+    plain = [re.sub(r"\\bar|\\u+(?=\{)", "", text) for text in texts(written)]
+    found = [calculation for text in plain for calculation in calculations(text)]
+    count, faults = equation_faults(read_back(written.sheet))
+
+    assert [(numbers, result) for numbers, result in found if not recomputes(evaluate(numbers), result)] == []
+    assert faults == []
+    assert len(found) > 12
+    assert count > 1

@@ -11,7 +11,12 @@ from itertools import pairwise
 from kulman.tests.support.readback import Sheet, Text, View
 
 NUMBER = r"\d+(?:[.,]\d+)?"
-EXPRESSION = re.compile(r"[\s\d.,·/+−()%π]*(?:\^\{2\}[\s\d.,·/+−()%π]*)*")
+POWER = r"\^\{−?\d+(?:/2)?\}"
+FUNCTIONS = {"inv": lambda x: math.tan(x) - x, "√": math.sqrt, "tg": math.tan, "arctg": math.atan, "arctan": math.atan}
+FUNCTIONS |= {"arccos": math.acos, "arcsin": math.asin, "sin": math.sin, "cos": math.cos, "tan": math.tan}
+NAMED = rf"(?:{'|'.join(FUNCTIONS)})"
+EXPRESSION = re.compile(rf"(?:[\s\d.,·/+−()%π°]|{POWER}|{NAMED})*")
+RESULT = re.compile(rf"(−?{NUMBER}(?:·10\^\{{−?\d+\}})?)(°?)")
 
 
 def numbers_of(text: str, lang: str) -> list[float]:
@@ -30,13 +35,14 @@ def decimal(text: str, lang: str) -> str:
 
 
 def value(text: str) -> float:
-    return float(text.replace("−", "-").replace(",", "."))
+    return float(text.replace("·10^{", "e").rstrip("}").replace("−", "-").replace(",", "."))
 
 
 def half_digit(text: str) -> float:
     """Half a unit of the last printed digit, and a little for ties."""
-    number = re.findall(NUMBER, text)[-1].replace(",", ".")
-    return 0.5 * 10.0 ** Decimal(number).as_tuple().exponent * (1 + 1e-9)
+    mantissa, _, power = text.partition("·10^{")
+    number = re.findall(NUMBER, mantissa)[-1].replace(",", ".")
+    return 0.5 * 10.0 ** Decimal(number).as_tuple().exponent * (1 + 1e-9) * float(f"1e{int(value(power or '0'))}")
 
 
 def recomputes(number: float, printed: str) -> bool:
@@ -179,21 +185,23 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
 
 
 def evaluate(text: str) -> float:
-    """Return the value of a printed expression of numbers."""
-    plain = text.replace("100 %", "100").replace(",", ".").replace("·", "*").replace("−", "-").replace("^{2}", "**2")
-    plain = plain.replace("π", repr(math.pi))
-    assert re.fullmatch(r"[\d.\s*/+()\-]+", plain), text
-    return float(eval(re.sub(r"\s+", " ", plain).strip()))
+    """Return the value of a printed expression of numbers; angles in degrees are in radians."""
+    plain = text.replace("100 %", "100").replace(",", ".").replace("·", "*").replace("−", "-").replace("√ ", "√")
+    plain = re.sub(rf"({NAMED})(\^\{{2\}})? ({NUMBER}°?)", r"\1(\3)\2", plain)
+    plain = re.sub(r"\^\{([^}]*)\}", r"**(\1)", plain)
+    plain = re.sub(r"([\d.]+)°", rf"(\1*{math.pi / 180.0!r})", plain)
+    plain = re.sub(r"π", repr(math.pi), re.sub(r"(?<=\d)π", "*π", plain))
+    assert EXPRESSION.fullmatch(text), text
+    return float(eval(re.sub(r"\s+", " ", plain).replace("√", "sqrt").strip(), {**FUNCTIONS, "sqrt": math.sqrt}))
 
 
 def calculations(line: str) -> Iterator[tuple[str, str]]:
-    """Yield (expression, printed result) for every `= numbers = number unit` of a line."""
-    body = line.rpartition(": ")[2]
-    sides = [side.strip() for side in body.split("=")]
-    for expression, result in pairwise(sides):
-        found = re.match(rf"−?{NUMBER}", result)
+    """Yield (expression, printed result) for every `= numbers = number unit` of a line, in degrees if the result is."""
+    body = re.sub(r"(?<=\d) (?:mm|мм|cm|см)(?=/| =)", "", line.rpartition(": ")[2])
+    for expression, result in pairwise(side.strip() for side in body.split("=")):
+        found = RESULT.match(result)
         if found and re.search(r"\d", expression) and EXPRESSION.fullmatch(expression):
-            yield expression, found[0]
+            yield f"({expression})·180/π" if found[2] else expression, found[1]
 
 
 def equation_faults(sheet: Sheet) -> tuple[int, list[str]]:
