@@ -32,6 +32,10 @@ class Series(np.ndarray[Any, np.dtype[Any]]):
         """Leave its name and unit to a part of a series."""
         self.name, self.unit = getattr(whole, "name", ""), getattr(whole, "unit", "")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what makes it again, with its name and unit, in another process."""
+        return Series, (np.asarray(self), self.name, self.unit)
+
     def __array_ufunc__(self, ufunc: np.ufunc, method: Method, *inputs: Any, **kwargs: Any) -> Any:
         """Calculate with plain arrays: a product of lengths is no length."""
         bare = [np.asarray(value) if isinstance(value, Series) else value for value in inputs]

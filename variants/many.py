@@ -271,7 +271,9 @@ def _solved(case: Case, read: Mapping[str, Array], shape: tuple[int, ...], wante
     parts = {name: parts[name] for name in wanted if name in parts}
     wanted = tuple(dict.fromkeys(parts.get(name, name) for name in wanted))
     all_known("quantity-unknown", wanted, known)
-    found, codes = batch(program, board_givens(mechanism, values, program), wanted or tuple(known))
+    wanted = wanted or tuple(known)
+    program = program.needed_for(wanted)  # so that strokes are found only where they count
+    found, codes = batch(program, board_givens(mechanism, values, program), wanted)
     for name, whole in parts.items():  # a component comes with the others; a number has none
         if not np.iscomplexobj(found[whole]):
             raise unknown("quantity-unknown", name, known)

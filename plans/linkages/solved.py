@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ...scales.errors import PositionError
-from ...scales.kept import Kept
 from ..board import POSITION, Program
 from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
@@ -19,14 +17,13 @@ from ..solved import Solved, found_on
 from . import compound
 from .chain import USUAL, constructed, hinged
 from .legs import guide_letters
-from .loads import BEGIN, END, with_sizes
-from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, SlidingDriver, start_names
+from .loads import END, with_sizes
+from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure, listed
 
 if TYPE_CHECKING:
     from ..condition import Condition
 
-_STROKES = Kept[Any](64)  # from where to where outputs move
 DRIVER = "driver"  # the figure of the driver apart, which shows arms at a scale factor of its own
 TWICE = 2.0  # how much better another centre of moments must be: it costs moments that else nobody needs
 
@@ -235,32 +232,9 @@ def board_givens(
     givens = with_sizes(mechanism, values)
     if program is None or END not in program.needs or END in values:
         return givens
-    _, motion = constructed(mechanism.without_loads, ("velocity",))
-    return {**givens, **_stroke_ends(mechanism, values, motion.needs)}
+    from .strokes import stroke_ends  # which needs numpy, and givens of its own for the sweep
 
-
-def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterable[str]) -> dict[str, Any]:
-    """Find the ends of the working stroke: once where only the driver moves, else for every mechanism of the arrays.
-
-    `motion` names the values on which its motion depends. The ends are kept, for sweeps, charts and sheets ask for them
-    again at each position.
-    """
-    from .strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
-
-    assert mechanism.stroke is not None
-    sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
-    followed = {name for start in mechanism.starts for name in start_names(start.link)}
-    stated = {name for start in mechanism.starts for name in (start.x, start.y, start.angle, start.driver)}
-    needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
-    size = max((len(value) for value in needed.values() if getattr(value, "ndim", 0)), default=0)
-    found = []
-    for row in range(size or 1):
-        one = {name: float(value[row] if getattr(value, "ndim", 0) else value) for name, value in needed.items()}
-        asked = repr(mechanism), repr(sorted(one.items()))
-        travel = _STROKES.get(asked, partial(stroke_of, mechanism, {**one, driver_at: 0.0}))
-        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
-    begin, end = zip(*found, strict=True)
-    return {BEGIN: [*begin], END: [*end]} if size else {BEGIN: begin[0], END: end[0]}
+    return {**givens, **stroke_ends(mechanism, values)}
 
 
 def _with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapping[str, Any]) -> Mechanism:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -17,17 +18,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scales.errors import InputError
+from ...scales.kept import Kept
 from ..board import Program, Step
 from ..boards.arrays import remembering
 from ..laws import TURN, inclination
 from ..zeros import Stretch, zeros
 from .chain import constructed, moving_bodies
 from .limits import Reach, Swept, reach_of, size_of, swept
-from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic
+from .loads import BEGIN, END
+from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, start_names
 from .structure import Structure
 
 Array = NDArray[Any]
 INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding
+_STROKES = Kept[Any](64)  # from where to where outputs move
 STILL = 1e-9  # part of the usual velocity below which an output stands still for good
 
 
@@ -158,6 +162,46 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> _Travel:
     raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
 
 
+def stroke_ends(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Find the ends of the working stroke: once for all rows of arrays that have the same lengths.
+
+    How fast the driver moves, and where it stands, does not matter. The ends are kept, for sweeps, charts and sheets
+    ask for them again at each position.
+    """
+    assert mechanism.stroke is not None
+    sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
+    followed = {name for start in mechanism.starts for name in start_names(start.link)}
+    stated = {name for start in mechanism.starts for name in (start.x, start.y, start.angle, start.driver)}
+    motion = constructed(_steady(mechanism), ("velocity",))[1].needs
+    needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
+    varying = {name: np.asarray(value) for name, value in needed.items() if np.ndim(value)}
+    firsts, rows = _distinct([*varying.values()]) if varying else ([0], None)
+    written, found = repr(mechanism), []
+    for first in firsts:
+        one = {name: float(varying[name][first] if name in varying else value) for name, value in needed.items()}
+        asked = written, repr(sorted(one.items()))
+        travel = _STROKES.get(asked, partial(stroke_of, mechanism, {**one, driver_at: 0.0}))
+        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
+    begin, end = zip(*found, strict=True)
+    return {name: at[0] if rows is None else np.array(at)[rows] for name, at in ((BEGIN, begin), (END, end))}
+
+
+def _distinct(columns: Sequence[Array]) -> tuple[list[int], NDArray[np.intp]]:
+    """Return where distinct rows of some columns stand first, and for every row which of them it is."""
+    rows = np.zeros(len(columns[0]), np.intp)
+    for column in columns:
+        own = np.unique(column, return_inverse=True)[1]
+        _, firsts, rows = np.unique(rows * (own.max() + 1) + own, return_index=True, return_inverse=True)
+    return firsts.tolist(), rows
+
+
+def _steady(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism without loads whose driver goes at one radian or metre a second, in the positive sense."""
+    driver = replace(mechanism.driver, speed="one", acceleration=None)
+    driver = replace(driver, sense="one") if isinstance(driver, Driver) else driver
+    return replace(mechanism.without_loads, driver=driver)
+
+
 def working_stroke(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[float, float]:
     """Return the driver's places at which the working stroke begins, the zero position, and ends.
 
@@ -192,10 +236,7 @@ def output_motions(
 
     Dead positions are zeros of the velocity, refined until they do not change: better than 1e-12 rad.
     """
-    # at one radian or metre a second, in the positive sense, steadily
-    driver = replace(drive.mechanism.driver, speed="one", acceleration=None)
-    driver = replace(driver, sense="one") if isinstance(driver, Driver) else driver
-    mechanism = replace(drive.mechanism.without_loads, driver=driver)
+    mechanism = _steady(drive.mechanism)
     structure, program = constructed(mechanism, ("velocity",))
     moved = tuple(output for output in outputs(mechanism, structure) if link in (None, output.link))
     wanted = [name for output in moved for name in (output.place, output.rate) if name]

@@ -6,9 +6,11 @@ import csv
 import io
 import json
 import math
+import pickle
 import re
 import sys
 import warnings
+from copy import copy, deepcopy
 from types import SimpleNamespace
 from typing import Any
 
@@ -19,6 +21,8 @@ from numpy.typing import NDArray
 import kulman
 from kulman import KulmanError, Quantity, Series, Status, load_task, solve, solve_many, sweep
 from kulman.plans.boards.exact import STATUSES
+from kulman.plans.linkages import strokes
+from kulman.scales.kept import Kept
 from kulman.scales.series import rows_of
 from kulman.tests.support.cases import some
 from kulman.variants.shelf import bundled
@@ -58,6 +62,27 @@ def test_each_of_many_states_is_what_it_is_alone(task: str) -> None:
     assert states.ok.all()
     for at in ((0, 1), (1, 2)):
         assert_alone(task, states, at)
+
+
+@pytest.mark.parametrize("task", ["scheme-01-compressor", "scheme-13-toggle-press", "scheme-20-press-automaton"])
+def test_strokes_are_found_once_for_the_same_lengths_if_at_all(task: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    usual, found, stroke_of = load_task(task).values(), list[Any](), strokes.stroke_of
+    monkeypatch.setattr(strokes, "_STROKES", Kept[Any](64))
+    monkeypatch.setattr(strokes, "stroke_of", lambda *asked: found.append(asked) or stroke_of(*asked))
+    length = next(name for name, value in usual.items() if name.startswith("l_A") and value)
+    speed = load_task(task).mechanism.driver.speed
+    over = any(diagram.over == "stroke" for diagram in load_task(task).mechanism.diagrams)
+    lengths = usual[length] * np.array([1.0, 1.003, 1.0])
+    speeds = usual[speed] * np.array([1.0, 1.1, 1.2, 1.3])
+    solve_many(task, **{length: lengths, speed: usual[speed]}, names="omega_1")
+    assert len(found) <= 1  # of the first one, which is solved alone
+
+    states = solve_many(task, **{length: lengths[:, None], speed: speeds}, names="M_bal")
+
+    assert len(found) == (2 if over else 1)
+    for at in np.ndindex(states.shape):
+        alone = solve_many(task, **{length: lengths[at[0]], speed: speeds[at[1]]}, names="M_bal")
+        assert states["M_bal"][at].tobytes() == alone["M_bal"].tobytes()
 
 
 def test_givens_broadcast_and_each_state_has_its_status() -> None:
@@ -249,6 +274,15 @@ def test_a_sweep_gives_its_columns_as_arrays(task: str) -> None:
                 assert own.unit == found["unit"]
     with pytest.raises(KulmanError, match="quantity"):
         swept["V_nothing"]
+
+
+def test_a_series_that_is_copied_or_sent_to_another_process_keeps_name_and_unit() -> None:
+    speed = solve_many(TASK, phi=[0.1, 0.2], names="V_B")["V_B"]
+    sent = [pickle.loads(pickle.dumps(speed, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+
+    for same in (*sent, copy(speed), deepcopy(speed), speed[::-1][::-1], pickle.loads(pickle.dumps(speed[:1]))):
+        assert isinstance(same, Series)
+        assert (same.name, same.unit, same[0]) == ("V_B", "m/s", speed[0])
 
 
 def test_a_series_keeps_its_unit_where_it_is_still_the_same_quantity() -> None:
