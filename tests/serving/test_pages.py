@@ -270,6 +270,7 @@ def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: 
     kulman.batch(TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=kinds, merge=True, teacher="Г. Вовк")
 
     assert unpacked(archived(client, page)) == files(tmp_path / "out")
+    assert "студентів: 2, готово: 2" in client.get(page).text
     assert client.post("/class", data=form).status_code == 400
 
 

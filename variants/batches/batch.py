@@ -24,7 +24,7 @@ from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
 from ...scales.choices import SHEETS
-from ...scales.errors import InputError, KulmanError, Written, spoken, system_language
+from ...scales.errors import InputError, KulmanError, Written, messages, spoken, system_language
 from ...scales.kept import Kept
 from ...scales.names import all_known, by_name, names_of, of_its_kinds
 from ...scales.numbers import SHOWN, quote
@@ -118,6 +118,11 @@ class Batch:
     def problems(self) -> list[str]:
         """Why students have got nothing, a line each."""
         return [outcome.problem for outcome in self.outcomes if outcome.problem]
+
+    def whole(self, language: str) -> str:
+        """Return how many students there are, and how many of them have got what they should."""
+        n = len(self.students)
+        return messages(language)["batch-done"].format(n=n, done=n - len(self.problems))
 
     @property
     def told(self) -> list[str]:

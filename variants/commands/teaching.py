@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ...scales.choices import HANDS, SHEETS
-from ...scales.errors import InputError, messages, system_language
+from ...scales.errors import InputError, system_language
 from ...scales.numbers import SHOWN, quote
 from . import console, helping
 
@@ -160,8 +160,8 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     with console.progress() as advance:
         made = draw_class(tasks, roster, folder, **block, advance=advance, jobs=jobs or None, **options)
     console.warn(made.warnings)
-    n, bad = len(made.students), made.problems
-    click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
+    bad = made.problems
+    click.echo(made.whole(system_language()))
     for problem in made.told:
         click.echo(problem, err=True)
     listed = quote(Path(folder) / MANIFEST, SHOWN)

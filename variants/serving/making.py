@@ -489,7 +489,7 @@ def drawn_class(
     files = sorted(path for path in folder.rglob("[!.]*") if path.is_file())
     _name_as_sent(files, [roster])
     _zipped(files, Path("..") / KEEP / archive, folder)
-    told = (*(warning.text(language) for warning in found.warnings), *found.told)
+    told = (found.whole(language), *(warning.text(language) for warning in found.warnings), *found.told)
     named = (line.replace(file, roster.name).replace(Path(file).name, roster.name) for line in told)
     return _Done(archive, (*named,))
 
