@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 from operator import add, mul, sub, truediv
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from ..plans.laws import LAWS, Sign, form_of
 from ..scales.numbers import rounded
@@ -33,6 +33,7 @@ MOST = 10  # more digits than that would be rounding noise
 FEWEST = 2  # of what small segments show
 HUNDREDTHS, LONG = 2, 100.0  # decimals of a segment, mm: a ruler reads no more; from where on it has one less
 AS_TOLD = 0  # instead of a number of digits: as many as the sheet prints elsewhere
+Fits: TypeAlias = Callable[[str, bool], bool]  # whether a number has a segment, one that a ruler tells if that is asked
 AS_PRINTED = -1  # instead of decimals of a result: what the printed numbers give, with a digit more than usual
 FINEST = 12  # decimals; what is smaller still is 0
 SLACK = 5.0  # of the last digit, by which what printed numbers give may miss what is solved
@@ -321,15 +322,16 @@ def shortest(words: Words, value: float, digits: int = DIGITS) -> str:
     return words.number(value, next(d for d in places if rounded(value, d) == rounded(value, most)))
 
 
-def laid_off(words: Words, value: float, mu: float, known: str) -> str:
+def laid_off(words: Words, value: float, mu: float, known: str, readable: bool = False) -> str:
     """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
 
     It is as long as it is drawn, to the last digit that a ruler shows. It has one digit more than a ruler where a
-    number could not be told from others, or even two, and is a hundredth of a mm off its drawing at most.
+    number could not be told from others, or even two unless it must be `readable`, and is a hundredth of a mm off its
+    drawing at most.
     """
     segment = abs(value) / mu
     usual, finest = ruler_decimals(words, segment), ruler_decimals(words, 0.0)
-    for decimals in range(usual, finest + 2):
+    for decimals in range(usual, finest + 1 + (not readable)):
         here, step = rounded(segment, decimals), 10.0**-decimals
         most = (0.5 * step if decimals < finest else 10.0**-finest) * (1.0 + TIE)
         beside = (here - step, here + step, rounded(number_of(known) / mu, decimals)) if decimals >= finest else ()
@@ -365,7 +367,7 @@ def calculation(
     law: Callable[..., float],
     inputs: Sequence[Input],
     wanted: int | None = None,
-    fits: Callable[[str], bool] | None = None,
+    fits: Fits | None = None,
     same: str = "",
 ) -> tuple[list[str], str]:
     """Return the printed inputs and the printed result of a calculation, such that it recomputes.
@@ -401,7 +403,7 @@ def _as_it_fits(
     law: Callable[..., float],
     inputs: Sequence[Input],
     most: int,
-    fits: Callable[[str], bool] | None,
+    fits: Fits | None,
 ) -> str:
     """Return what printed numbers give with as many digits as its segment fits, the last but one of which is right.
 
@@ -412,7 +414,9 @@ def _as_it_fits(
     ways = [usual, *(value_text(words, reckoned, digits) for digits in (DIGITS + 1, *range(DIGITS, FEWEST, -1)))]
     if most == DIGITS:  # with more it is to be compared with what is found another way
         ways = [way for way in ways if abs(number_of(way) - right) <= SLACK * 10.0 ** -places_of(way)] or ways
-    return next(filter(fits, ways), ways[0])
+    if fits is None:
+        return ways[0]
+    return next((way for readable in (True, False) for way in ways if fits(way, readable)), ways[0])
 
 
 def as_printed(law: Callable[..., float], inputs: Sequence[Input]) -> float:

@@ -22,6 +22,7 @@ from ...printed import (
     AS_TOLD,
     POINT,
     READABLE,
+    Fits,
     Input,
     Symbol,
     as_printed,
@@ -110,7 +111,7 @@ def worked(
     *,
     turn: float = 1.0,
     wanted: int | None = None,
-    fits: Callable[[str], bool] | None = None,
+    fits: Fits | None = None,
     same: str = "",
 ) -> tuple[str, ...]:
     """Return `head = formula = numbers = result unit` of a sum of products, all of them turned, perhaps divided.
@@ -153,7 +154,7 @@ def _by_law(
     operands: Sequence[Product],
     unit: str,
     wanted: int | None = None,
-    fits: Callable[[str], bool] | None = None,
+    fits: Fits | None = None,
     same: str = "",
 ) -> tuple[str, ...]:
     """Return `head = formula = numbers = result unit` of a law of operands each of which is a product."""
@@ -320,14 +321,16 @@ def _factor_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, float]:
     return words.short(number), 1.0 / number if words.per_unit else number
 
 
-def fit_for(scene: Scene, name: str) -> Callable[[str], bool] | None:
+def fit_for(scene: Scene, name: str) -> Fits | None:
     """Return whether a segment on its plan can show a number of a vector; None if none shows it, or a short one."""
     item = scene.quantities.get(role(name).shown)
     plan = "" if item is None or scene.words.ruler else _shown_on(scene, item)
     if item is None or plan not in scene.scales:
         return None
     mu, value = _factor_on(scene, item, plan)[1], value_shown(scene, item)
-    return (lambda text: bool(laid_off(scene.words, value, mu, text))) if abs(value) >= READABLE * mu else None
+    if abs(value) < READABLE * mu:
+        return None
+    return lambda text, readable: bool(laid_off(scene.words, value, mu, text, readable))
 
 
 def _is_laid(scene: Scene, name: str) -> bool:
