@@ -173,7 +173,7 @@ def title_page(case: Case) -> TitlePage:
 def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:
     """Return what follows the first page: who the author is changes nothing of it."""
     said, words = packaged(TEXTS, "texts", case.language), case.words()
-    story = case.kind.story(case, drawn.scales, words, said)
+    story = case.kind.story(replace(case, format=drawn.format), drawn.scales, words, said)
     by = said["note.over" if words.per_unit else "note.times"]
     identity = sheet_id(case.task, case.variant, case.settings)
     sources = [

@@ -215,7 +215,7 @@ def _number(scene: HoistScene, value: float) -> str:
     """Return a number, a very large or small one with a power of ten."""
     size = abs(value)
     if math.isinf(value):
-        return "∞"
+        return scene.value(value)
     if size == 0.0 or SMALL <= size < LARGE:
         return scene.words.short(value) if value == round(value, 2) else scene.value(value)
     power = math.floor(math.log10(size))

@@ -37,7 +37,6 @@ from .calculations.equations import (
     sensed,
     size_by_law,
     size_of,
-    stated,
     worked,
 )
 from .calculations.forces import LOADS, differ, force_lines, force_parts, lines_by_plan
@@ -377,7 +376,8 @@ def _extremes(teller: Teller, key: str, names: Sequence[str]) -> Iterator[str]:
     pairs = filter(None, map(_pair, names))
     twice = {teller.mechanism.pair("R", pair[1], pair[0]) for pair in pairs}  # both are as large
     sizes = {n: size_of(teller, n) for n in names if not (n in twice and _pair(n)[0] > _pair(n)[1])}
-    moving = sorted((name for name in sizes if sizes[name] > 0.0), key=lambda name: sizes[name])
+    printed = {name: number_of(number(teller, name)) for name in sizes if sizes[name] > 0.0}
+    moving = sorted(printed, key=lambda name: (printed[name], sizes[name]))
     if moving:
         low, high = (_alike(teller, sizes, name) for name in (moving[0], moving[-1]))
         one = math.isclose(sizes[moving[0]], sizes[moving[-1]], rel_tol=SAME)
@@ -391,13 +391,11 @@ def _pair(name: str) -> tuple[int, ...]:
 
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
-    """Return the symbols of all quantities that are as large as one, with its value as the tables print it."""
-    item = teller.quantities[name]
+    """Return the symbols of all quantities that are as large as one, and printed so, with its value."""
+    item, value = teller.quantities[name], number(teller, name)
     alike = [other for other in found if math.isclose(abs(found[other]), abs(found[name]), rel_tol=SAME)]
-    symbol = " = ".join(dict.fromkeys(teller.words.symbol(other) for other in alike))
-    if not teller.figure_of(name):
-        return stated(teller.words, symbol, abs(found[name]), item.unit)
-    return f"{symbol} = {printed_segment(teller, item)[2]} {teller.words.unit(teller.words.display.unit(item.unit))}"
+    symbol = " = ".join(dict.fromkeys(teller.words.symbol(other) for other in alike if number(teller, other) == value))
+    return f"{symbol} = {value} {teller.words.unit(teller.words.display.unit(item.unit))}"
 
 
 def _balance(teller: Teller, name: str) -> Iterator[str]:
@@ -410,7 +408,7 @@ def _balance(teller: Teller, name: str) -> Iterator[str]:
     force = item.value if by_moment else teller.values["_F_bal"]
     power = dot(complex(force), complex(teller.values[speed]))
     yield teller.texts[f"conclusion.{name}_{'drives' if power > 0.0 else 'brakes'}"].format(
-        value=stated(words, words.symbol(name), abs(item.value), item.unit),
+        value=f"{words.symbol(name)} = {number(teller, name)} {words.unit(words.display.unit(item.unit))}",
         sense=sensed(words, item.value),
         symbol=words.symbol(name),
         speed=words.symbol(speed, bar=not by_moment),

@@ -16,7 +16,7 @@ from ...plans.quantities import Quantity
 from ...scales.packaged import packaged
 from .. import notes
 from ..notes.blocks import REFERS
-from ..printed import POINT, Input, Symbol, calculation, ruler_decimals, segment_text
+from ..printed import POINT, Input, Symbol, as_printed, calculation, recomputes, ruler_decimals, segment_text
 from .calculations import equations
 from .calculations.forces import found_by
 from .figures.lever import Couple, couples_on_lever, hung_on_lever, letter_of, moments_on_lever
@@ -75,11 +75,17 @@ class Teller(Scene):
             return self.on_paper(equations.size_of(self, name) / scale.mu)
         value, mu = equations.factor(self, name), equations.paper(words, scale)
         length = equations.Product((value, replace(mu, power=-mu.power)))
-        inputs = [Input(value.value, value.exact), Input(mu.value, exact=True)]
+        inputs = [Input(value.value, value.exact, fixed=True, told=value.told), Input(mu.value, exact=True, fixed=True)]
         places = ruler_decimals(words, length.of([value.value, mu.value]))
         texts, result = calculation(words, lambda *x: length.of(x), inputs, places)
-        numbers, unit = length.of([*map(Symbol.of, texts)]), words.unit(words.display.paper)
-        return f"{length.in_letters} = {numbers} = {result} {unit}"
+        unit, item = words.unit(words.display.paper), self.quantities.get(role(name).shown)
+        printed, by, _ = ("", "", "") if item is None else equations.printed_segment(self, item, plan)
+        if item is None or not printed or by != words.short(mu.value):  # or it is longer, in a detail
+            printed = result
+        elif not recomputes(as_printed(lambda *x: length.of(x), inputs), printed):  # the other way round it does
+            product = f"{printed}{'/' if words.per_unit else '·'}{by} = {value.told or texts[0]}"
+            return f"{length.in_letters} = {printed} {unit} ({product} {words.unit(words.display.unit(item.unit))})"
+        return f"{length.in_letters} = {length.of([*map(Symbol.of, texts)])} = {printed} {unit}"
 
     def on_paper(self, mm: float) -> str:
         """Return a length on paper with its unit."""

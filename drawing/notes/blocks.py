@@ -194,11 +194,12 @@ _REFERRING = re.compile(r"⟦(.*?)⟧")
 _WORDS = re.compile(r"(?:[^\W\d_]|’){4,} ")
 _BARRED = re.compile(r"\\bar\{(\w+)\}")
 _DISPLAYED = re.compile(r"[=≤≥]|\\u{1,2}\{")
+_MEANT = re.compile(r": [^\W\d_]+ [^\W\d_]{2,} ")  # what an equation before it means, in words
 
 
 def displayed(markup: str) -> bool:
     """Whether a line is an equation, not words, in which something may be equal to something, too."""
-    return _DISPLAYED.search(markup) is not None and _WORDS.match(markup) is None
+    return _DISPLAYED.search(markup) is not None and _WORDS.match(markup) is None and _MEANT.search(markup) is None
 
 
 @dataclass(slots=True)

@@ -39,7 +39,7 @@ from kulman.scales.scale import Scale
 from kulman.tests.notes import test_docx as in_word
 from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
-from kulman.tests.support.printed_numbers import calculations, equation_faults, evaluate, recomputes
+from kulman.tests.support.printed_numbers import calculations, disagreements, equation_faults, evaluate, recomputes
 from kulman.tests.support.readback import read_back
 from kulman.variants.case import Case, Settings
 from kulman.variants.notes import Note
@@ -505,8 +505,16 @@ def test_words_in_which_something_is_equal_have_no_number_of_an_equation(lang: s
     numbers = [number for _, number in blocks[0].told]
     told = [" ".join(line) for block in blocks for line, number in block.told if number]
 
+    still = [
+        block for block in note(TASK, "3", set={"phi": 0}, lang=lang).document.blocks if isinstance(block, Equations)
+    ]
+    meant = [
+        line[0] for block in still for line, number in block.told if line[0].startswith("ε_{2} = 0:") and not number
+    ]
+
     assert numbers == [0] * len(numbers)  # the law of motion, the senses
     assert not any(re.match(r"[^\W\d_’]{3,}[ ’]", line) for line in told)
+    assert len(meant) == 1  # what it means that a rate is zero, as an equation has given
 
 
 @pytest.mark.soak
@@ -608,9 +616,12 @@ def test_every_printed_equation_of_note_and_sheet_recomputes_to_its_last_digit(
 
     plain = [re.sub(r"\\bar|\\u+(?=\{)", "", text) for text in texts(written)]
     found = [calculation for text in plain for calculation in calculations(text)]
-    count, faults = equation_faults(read_back(written.sheet))
+    drawn = read_back(written.sheet)
+    count, faults = equation_faults(drawn)
 
     assert [(numbers, result) for numbers, result in found if not recomputes(evaluate(numbers), result)] == []
     assert faults == []
     assert len(found) > 12
     assert count > 1
+    if task in bundled("mechanism"):  # one number for one quantity
+        assert list(disagreements(drawn, plain)) == []

@@ -217,11 +217,12 @@ def equation_faults(sheet: Sheet) -> tuple[int, list[str]]:
     return count, faults
 
 
-def told(sheet: Sheet) -> dict[str, dict[str, set[str]]]:
-    """Return the numbers of quantities of a linkage, by symbol and by where they stand.
+def told(sheet: Sheet, note: Iterable[str] = ()) -> dict[str, dict[str, set[str]]]:
+    """Return the numbers of quantities of a linkage, also of texts of its note, by symbol and by where they stand.
 
     That is `=` for results of equations and `·` for what goes into others, `mm` and `row` of tables, `arm` of the
-    lever, `letter` for what stands beside a drawing. Arms and segments of plans are called by their views, too.
+    lever, `letter` for what stands beside a drawing. Arms and segments of plans are called by their views, too; those
+    of a note are left out.
     """
     found = dict[str, dict[str, set[str]]]()
     for view in sheet.views:
@@ -231,22 +232,36 @@ def told(sheet: Sheet) -> dict[str, dict[str, set[str]]]:
             if own or re.fullmatch(r"([a-z]′?(_\{\d+\})?){2}", symbol):
                 symbol += f" {view.name.replace('equations_', '').replace('results_', '')}"
             found.setdefault(symbol, {}).setdefault(place, set()).add(number.lstrip("−"))
+    for clause in (clause for text in note for clause in re.split(r"[,;:.] ", text)):
+        for place, spaced, number in _numbers_of(clause):
+            symbol = spaced.split(" ")[-1]
+            if (
+                symbol in found
+                and number.strip("−0.,")
+                and not re.fullmatch(r"n|[hμ].*|([a-z]′?(_\{\d+\})?){2}", symbol)
+            ):
+                found[symbol].setdefault(place, set()).add(number.strip("−."))
     return found
+
+
+def _numbers_of(line: str) -> Iterator[tuple[str, str, str]]:
+    """Go through the numbers of an equation: whether they result or go into another one, of which quantity."""
+    plain = re.sub(r"\{[^{}]*\}", lambda script: script[0].replace(" ", ""), line)
+    head, *sides = [side.strip() for side in plain.rpartition(": ")[2].split(" = ")]
+    ends = [found[0] for side in sides if (found := re.match(rf"−?{NUMBER}(?![\d·/]| [−+])", side))]
+    if ends:
+        yield "=", head, ends[-1]
+    for letters, numbers in pairwise([head, *sides]):
+        own, its = ([part for part in re.split(r"[·/+()−\s]+", side) if part] for side in (letters, numbers))
+        if len(own) == len(its) and all(re.match(r"\d|π", part) for part in its):
+            bases = [re.sub(r"\^\{2\}", "", part) for part in (*own, *its)]
+            yield from (("·", a, b) for a, b in zip(bases, bases[len(own) :], strict=False) if a[0].isalpha())
 
 
 def _numbers_in(view: View) -> Iterator[tuple[str, str, str]]:
     """Go through the numbers of a view: where they stand, of which quantity."""
     for line in lines_of(view) if view.of("line") else []:
-        plain = re.sub(r"\{[^{}]*\}", lambda script: script[0].replace(" ", ""), line)
-        head, *sides = [side.strip() for side in plain.rpartition(": ")[2].split(" = ")]
-        ends = [found[0] for side in sides if (found := re.match(rf"−?{NUMBER}(?![\d·/]| [−+])", side))]
-        if ends:
-            yield "=", head, ends[-1]
-        for letters, numbers in pairwise([head, *sides]):
-            own, its = ([part for part in re.split(r"[·/+()−\s]+", side) if part] for side in (letters, numbers))
-            if len(own) == len(its) and all(re.match(r"\d|π", part) for part in its):
-                bases = [re.sub(r"\^\{2\}", "", part) for part in (*own, *its)]
-                yield from (("·", a, b) for a, b in zip(bases, bases[len(own) :], strict=False) if a[0].isalpha())
+        yield from _numbers_of(line)
     rows = table(view) if view.name.startswith("results_") else []
     for symbol, first, second, third, *_ in rows:
         if "lever" in view.name:
@@ -260,12 +275,12 @@ def _numbers_in(view: View) -> Iterator[tuple[str, str, str]]:
                 yield from (("letter", symbol, number) for symbol in symbols)
 
 
-def disagreements(sheet: Sheet) -> Iterator[str]:
-    """Quantities of a linkage that equations, tables and letters tell with different digits.
+def disagreements(sheet: Sheet, note: Iterable[str] = ()) -> Iterator[str]:
+    """Quantities of a linkage that equations, tables, letters and the texts of its note tell with different digits.
 
     Where one way to a number has given that of a table or of a drawing, another may give fewer of its digits.
     """
-    for symbol, places in told(sheet).items():
+    for symbol, places in told(sheet, note).items():
         row, results = places.get("row", set()), places.get("=", set())
         numbers = set().union(*(places[place] for place in places if place not in ("row", "mm")))
         known = row | places.get("mm", set()) or {max(numbers, key=len)}

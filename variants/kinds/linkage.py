@@ -232,12 +232,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return given | begun(self.scene(case, scales, words), steps, case.plans)
 
     def scene(self, case: Case, scales: Scales, words: Words) -> Scene:
-        """Return what is drawn with its letters and scale factors."""
-        from ...drawing.formats import STYLES
+        """Return what is drawn with its letters and scale factors, on A4 if no format is said."""
+        from ...drawing.formats import STYLES, format_named
         from ...drawing.linkages.scene import Scene
 
-        solved = placed(case)
-        return Scene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, scales)
+        solved, style = placed(case), STYLES[format_named(case.format or "A4").letters]
+        return Scene(solved, self.lettered(words, solved), style, case.givens, scales)
 
     def magnified(self, case: Case, scales: Scales, words: Words) -> Mapping[str, float]:
         """Return what is read in the insets of force plans."""
