@@ -280,7 +280,9 @@ def decimals_for(value: float, digits: int = DIGITS) -> int:
 
 
 def value_text(words: Words, value: float, digits: int = DIGITS) -> str:
-    """Return a value with the usual digits; what is rounding noise of a millionth of a millionth is 0."""
+    """Return a value with the usual digits, ∞ with its sign; rounding noise of a millionth of a millionth is 0."""
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "−∞"
     return words.number(value, decimals_for(value, digits))
 
 

@@ -109,6 +109,11 @@ class Cycle:
             return Arc(float(self.angles[0]), float(self.angles[0]) + self.drive.sense * TURN)
         return Arc(float(self.angles[0]), float(self.angles[-1]))
 
+    @property
+    def sections(self) -> int:
+        """Into how many sections the positions divide the range: a full turn ends where it begins."""
+        return len(self.angles) - (not self.drive.turns)
+
     def at(self, places: Array, names: Sequence[str]) -> dict[str, Array]:
         """Return values by name for other places of the driver."""
         return self.drive.along(self.program, self.givens, names)(places)

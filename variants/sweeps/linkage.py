@@ -128,7 +128,7 @@ class Sweep(Swept):
 
     def chords(self, of: str | int, language: str | None = None) -> str:
         """Return a table of the velocities and accelerations of a point or a link by plans and by chords."""
-        drawn, words = self.diagrams(of, len(self.cycle.angles)), self._words(language)
+        drawn, words = self.diagrams(of, self.cycle.sections), self._words(language)
         velocity, acceleration = ("omega", "epsilon") if drawn.unit == "rad" else ("V", "a")
         parts = (velocity, f"{drawn.unit}/s", drawn.velocity), (acceleration, f"{drawn.unit}/s^2", drawn.acceleration)
         return "\n\n".join(_chords(f"{symbol}_{of}", unit_name, curve, words) for symbol, unit_name, curve in parts)

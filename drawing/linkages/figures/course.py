@@ -191,8 +191,10 @@ def extremes_table(scene: Scene, cycle: Cycle) -> View:
         of, row = unit_of(name), [words.symbol(name)]
         for end in ends:
             place = math.degrees(end.at % TURN) if cycle.drive.turns else 1e3 * end.at
-            size = value_text(words, words.display.value(end.value, of)) if math.isfinite(end.value) else "∞"
-            row += [size, words.number(place, 1) + ("°" if cycle.drive.turns else f" {words.unit('mm')}")]
+            row += [
+                value_text(words, words.display.value(end.value, of)),
+                words.number(place, 1) + ("°" if cycle.drive.turns else f" {words.unit('mm')}"),
+            ]
         rows.append([*row, words.unit(words.display.unit(of))])
     return table("extremes", words["heading.extremes"], rows, scene.style)
 

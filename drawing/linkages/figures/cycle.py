@@ -219,7 +219,7 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     if motion is None:
         raise ValueError("no output has a stroke")
     canvas, of, length = scene.canvas(), str(motion.output.link), LENGTH[scene.style.label]
-    drawn, dense = (diagrams(cycle, of, sections) for sections in (len(cycle.angles), SECTIONS))
+    drawn, dense = (diagrams(cycle, of, sections) for sections in (cycle.sections, SECTIONS))
     across = Scale("mu_t", rounded(float(drawn.times[-1]) / length, 6), "s")
     bands, low, times = _bands(scene, drawn, dense, across, motion), 0.0, drawn.times.tolist()
     for number, band in enumerate(bands):
