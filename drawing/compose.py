@@ -7,11 +7,11 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
-from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
+from itertools import accumulate, chain, combinations, cycle, islice, pairwise, product, takewhile
 
 from ..scales.scale import Scale
 from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
-from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
+from .packing import LEAST, SLACK, STEPS, Placement, Size, Slicing, bare, inset, spread
 from .page import STATEMENT, TASK_VIEWS, Page
 from .shapes import Group
 from .tables import after, larger, narrower, part_of, roomier
@@ -58,25 +58,33 @@ def on_a_page(
     begins: Sequence[int] = (),
     first: bool = True,
     loose: bool = False,
+    columns: bool = False,
 ) -> list[Placement] | None:
     """Place views of these sizes on one page of `sheet` in reading order; return None if they do not fit.
 
     The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. A text stands
-    beside the figure before it where that can be; `begins` are as of `Pages`, and `loose` as of `spread`.
+    beside the figure before it where that can be; `begins` are as of `Pages`, and `loose` as of `spread`. In `columns`
+    figures come down one column after the other.
     """
-    placed = _on_a_page(tuple(sizes), sheet, norm, tuple(begins), first, loose)
+    placed = _on_a_page(tuple(sizes), sheet, norm, tuple(begins), first, loose, columns)
     return None if placed is None else [*placed]
 
 
 @lru_cache(maxsize=256)
 def _on_a_page(
-    sizes: tuple[Size, ...], sheet: Format, norm: Norm, begins: tuple[int, ...], first: bool, loose: bool
+    sizes: tuple[Size, ...],
+    sheet: Format,
+    norm: Norm,
+    begins: tuple[int, ...],
+    first: bool,
+    loose: bool,
+    columns: bool,
 ) -> tuple[Placement, ...] | None:
     """Place them, as `on_a_page` says; what was tried is kept, since pages and orders that are tried ask it again."""
     left, low, right, top = usable(sheet, norm)
     if sum((w + LEAST) * (h + LEAST) for w, h in sizes) > (right - left + LEAST) * (top - low + LEAST):
         return None
-    page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
+    page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first, columns)
     if not page.fits:
         return None
     cut, room, corners = page.cut(), page.room, (len(sizes) + begun, 0 if begun else -1)
@@ -87,7 +95,7 @@ def _on_a_page(
 
 
 def _cuts(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int], first: bool
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int], first: bool, columns: bool = False
 ) -> tuple[Slicing, Size, int]:
     """Return all ways to cut a page for views and its corners, where it begins, how many corners come before them."""
     (x0, y0, x1, y1), (block, *turned) = usable(sheet, norm), reserved_boxes(sheet, norm, first=first)
@@ -102,7 +110,8 @@ def _cuts(
         own, joined = [*own, (wide, high)], [*joined, HELD]
     else:
         y0 += high + LEAST
-    return Slicing(own, (x1 - x0, y1 - y0), joined), (x0, y0), begun
+    figures = [False] * begun + [kind == FIGURE for kind in begins] + [False] * (len(own) - begun - len(sizes))
+    return Slicing(own, (x1 - x0, y1 - y0), joined, figures if columns else ()), (x0, y0), begun
 
 
 def on_one_page(
@@ -327,8 +336,14 @@ def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> li
     """Return the views of a page at places in reading order, as many from the first one on as can be.
 
     The others come as on the only page: figures before tables, or high ones before low ones; so that fewest figures
-    stand before one that they follow.
+    stand before one that they follow. Where they can, figures come down one column after the other.
     """
+    best = _with_few_turned(page, sheet, norm, first)
+    return _in_columns(best, sheet, norm, first) if _climbs(best) else best
+
+
+def _with_few_turned(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
+    """Return the views of a page at places at which fewest figures stand before one that they follow."""
     views, count = [view for view, _ in page], len(page)
     begins, best, least = begins_of(views), page, _turned_figures(page)
     for kept in range(count, 1, -max(1, count // KEPT)):
@@ -358,6 +373,56 @@ def _turned_figures(page: Sequence[Standing]) -> int:
     kinds = begins_of(view for view, _ in page)
     boxes = [_box_of(standing) for standing, kind in zip(page, kinds, strict=True) if kind == FIGURE]
     return sum(after[0] < before[2] and after[3] > before[1] for before, after in combinations(boxes, 2))
+
+
+def _climbs(page: Sequence[Standing]) -> int:
+    """Return in how many pairs of figures the later one stands higher in one column, or in one more to the left.
+
+    Below all figures before it there begin new columns.
+    """
+    kinds, count = begins_of(view for view, _ in page), 0
+    boxes = [_box_of(standing) for standing, kind in zip(page, kinds, strict=True) if kind == FIGURE]
+    lows, tops = [*accumulate((box[1] for box in boxes), min)], [*accumulate((box[3] for box in boxes[::-1]), max)]
+    bands = [*accumulate((low >= top for low, top in zip(lows, tops[-2::-1], strict=False)), initial=0)]
+    for (band, before), (other, later) in combinations(zip(bands, boxes, strict=False), 2):
+        (x, y), (u, v) = ((0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])) for box in (before, later))
+        if band == other:
+            count += v > y if before[0] < u < before[2] or later[0] < x < later[2] else u < x
+    return count
+
+
+def _in_columns(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
+    """Return a page with its figures in columns, where that leaves it no emptier than it may be.
+
+    Tables and texts come as they are read, or behind the figures from high to low.
+    """
+    views = [view for view, _ in page]
+    begins, sizes = begins_of(views), [view.size for view in views]
+    lead, paper = len(_lead(begins)), (sheet, norm)
+    rest = range(lead, len(views))
+    texts = sorted((i for i in rest if begins[i] != FIGURE), key=lambda i: -sizes[i][1])
+
+    def turned(page: Sequence[Standing]) -> tuple[float, ...]:
+        return _climbs(page), *_lacks(page, *paper, first)
+
+    best, least = page, turned(page)
+    enough = least[1:]
+
+    def behind(*kinds: int) -> tuple[int, ...]:
+        return (*range(lead), *(i for i in rest if begins[i] not in kinds), *(i for i in texts if begins[i] in kinds))
+
+    orders = dict.fromkeys((tuple(range(len(views))), behind(TEXT), behind(TEXT, TOLD)))
+    for order, loose in product(orders, (False, True)):
+        kinds = [begins[i] for i in order]
+        placed = on_a_page([sizes[i] for i in order], *paper, kinds, first, loose, columns=True)
+        if placed is None:
+            continue
+        at = dict(zip(order, placed, strict=True))
+        other = [(view, at[i]) for i, view in enumerate(views)]
+        now = turned(other)
+        if now < least and all(a <= b + SLACK for a, b in zip(now[1:], enough, strict=True)):
+            best, least = other, now
+    return best
 
 
 def _area(box: Box) -> float:
@@ -664,7 +729,7 @@ def _without_holes(page: list[Standing], sheet: Format, norm: Norm, first: bool)
     views = [view for view, _ in page]
     placed = on_a_page([view.size for view in views], sheet, norm, begins_of(views), first, loose=True)
     other = page if placed is None else [*zip(views, placed, strict=True)]
-    return other if hole(other) < least else page
+    return other if hole(other) < least and _climbs(other) <= _climbs(page) else page
 
 
 def begins_of(views: Iterable[View]) -> list[int]:
@@ -769,7 +834,7 @@ def compose(
         pages, short = parting.evened(pages)
         sheets = sheets[: len(pages)]
         for k, page in enumerate(pages):
-            if _turned_figures(page):
+            if _turned_figures(page) or _climbs(page):
                 read = _as_read(page, sheet, norm, k == 0)
                 if k == len(pages) - 1 or _lacks(read, sheet, norm, k == 0) <= _lacks(page, sheet, norm, k == 0):
                     pages[k] = read

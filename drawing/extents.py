@@ -195,7 +195,7 @@ def _has_room(extents: Extents, figure: Extent, rungs: Rungs, sheet: Format) -> 
     """Whether a page has room for a figure, whatever its norm, and where printers do not reach the edges."""
     wide, high = (min(sides) for sides in zip(*(room(printable(sheet), norm, True) for norm in NORMS), strict=True))
     w, h = figure.on_paper(extents.mu(figure.symbol, rungs), SMALLER[sheet.letters])
-    return w <= ONE[sheet.letters] * wide and h <= ONE[sheet.letters] * high
+    return bool(w <= ONE[sheet.letters] * wide and h <= ONE[sheet.letters] * high)
 
 
 def _filling(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: float, longest: float) -> Rungs:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import product
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, TypeAlias
 
 from .text import Box
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 Size: TypeAlias = tuple[float, float]
 STEPS = 300  # of the grid on the width and on the height of a page
+MOST_BANDS = 3  # of columns that stand one under another on a page
 NEVER = 9999  # more steps than any page has
 LEAST = 3.0  # mm between views; what the grid adds to it is shared out
 UNDER = 10.0  # mm at most between column 26 and what stands under it
@@ -125,13 +126,19 @@ class Slicing:
     """All ways to cut a room of width and height `room`, mm, for views of these `sizes` in order.
 
     `bonds` say before each view but the first how much it belongs to the one before: a cut goes where that is least.
+    Where it is said which are `figures`, these stand in columns, no two of them side by side in one: all columns beside
+    each other, or some under others.
     """
 
     sizes: Sequence[Size]
     room: Size
     bonds: Sequence[int] = ()
-    # by how many views: the least heights by the first view and the width, the least widths by it and the height
+    figures: Sequence[bool] = ()
+    # by how many views: the least heights by the first view and the width, the least widths by it and the height; of
+    # all ways, of one column, of columns side by side
     _tables: list[NDArray[np.int16]] = field(init=False)
+    _column: list[NDArray[np.int16]] = field(init=False)
+    _columns: list[NDArray[np.int16]] = field(init=False)
 
     def __post_init__(self) -> None:
         """Fill the tables, from runs of one view on."""
@@ -143,16 +150,44 @@ class Slicing:
             sides = zip(size, self.room, strict=True)
             wide, high = (math.ceil(STEPS * (side + LEAST) / (most + LEAST) - SLACK) for side, most in sides)
             one[0, i, wide:], one[1, i, high:] = min(high, NEVER), min(wide, NEVER)
-        self._tables = [one[:, :0], one]
+        self._tables, self._column, self._columns = ([one[:, :0], one] for _ in range(3))
         for long in range(2, n + 1):
             least = _in_two(self._tables, n - long + 1)
-            # a row as high as its width allows, and the other way about: what is least never rises
-            self._tables.append(np.minimum(least, _turned(least)[::-1]))
+            self._tables.append(_either_way(least))
+            if not self.figures:
+                continue
+            alone = np.array([sum(self.figures[i : i + long]) < 2 for i in range(n - long + 1)])[:, None]
+            under = _in_two(self._column, n - long + 1)
+            under[1] = NEVER
+            self._column.append(np.where(alone, self._tables[long], _either_way(under)))
+            beside = _in_two(self._columns, n - long + 1)
+            beside[0] = NEVER
+            self._columns.append(np.minimum(self._column[long], _either_way(beside)))
+        if not self.figures:
+            self._column = self._columns = self._tables
 
     @property
     def high(self) -> int:
         """How many steps of its height all views need at its whole width, `STEPS` being all of them."""
-        return int(self._tables[-1][0, 0, STEPS])
+        return self._bands()[0]
+
+    def _bands(self) -> tuple[int, tuple[int, ...]]:
+        """Return how many steps of its height all need in bands of columns one under another, and where these end.
+
+        They are as few as have room; where nothing is said of figures there is but one.
+        """
+        count = len(self.sizes)
+        one = [int(self._columns[j][0, 0, STEPS]) for j in range(1, count + 1)]
+        best: list[tuple[int, tuple[int, ...]]] = [(0, ()), *((high, (j,)) for j, high in enumerate(one, start=1))]
+        for _ in range(MOST_BANDS - 1 if self.figures else 0):
+            if best[-1][0] <= STEPS:
+                break
+            more = (
+                min((best[i][0] + int(self._columns[j - i][0, i, STEPS]), (*best[i][1], j)) for i in range(1, j))
+                for j in range(2, count + 1)
+            )
+            best = [*best[:2], *map(min, best[2:], more)]
+        return best[-1]
 
     @property
     def fits(self) -> bool:
@@ -161,17 +196,28 @@ class Slicing:
 
     def cut(self) -> _Cut | int:
         """Return one way to cut the room, where it holds all views."""
-        return self._cut(0, len(self.sizes), STEPS, STEPS)
+        high, ends = self._bands()
+        spare = (STEPS - high) // len(ends)
+        each = [(i, j, int(self._columns[j - i][0, i, STEPS]) + spare) for i, j in pairwise((0, *ends))]
+        first, *others = (self._cut(i, j, STEPS, own) for i, j, own in each)
+        return (
+            _Cut(tuple(part for band in (first, *others) for part in _parts(band, False)), False) if others else first
+        )
 
     def _cut(self, i: int, j: int, wide: int, high: int) -> _Cut | int:
         """Return how a part of the room is cut for a run of views: where bonds are least, then where room is left."""
         if j == i + 1:
             return i
+        alone = sum(self.figures[i:j]) < 2
+        column = int(self._column[j - i][0, i, wide]) <= high
         best: tuple[float, float, bool, int, int, int] = (math.inf, 0.0, False, 0, 0, 0)
         for k in range(i + 1, j):
             bond = self.bonds[k] if self.bonds else 0
             for beside, most, room in ((True, high, wide), (False, wide, high)):
-                first, second = (int(self._tables[b - a][int(beside), a, most]) for a, b in ((i, k), (k, j)))
+                if not alone and beside is column:
+                    continue
+                tables = self._tables if alone else self._columns if beside else self._column
+                first, second = (int(tables[b - a][int(beside), a, most]) for a, b in ((i, k), (k, j)))
                 if first + second <= room:
                     best = min(best, (bond, (first + second) / room, not beside, k, first, second))
         _, _, under, k, first, second = best
@@ -180,8 +226,19 @@ class Slicing:
             parts = self._cut(i, k, wide, first + spare), self._cut(k, j, wide, high - first - spare)
         else:
             parts = self._cut(i, k, first + spare, high), self._cut(k, j, wide - first - spare, high)
-        flat = (p.parts if isinstance(p, _Cut) and p.beside is not under else (p,) for p in parts)
-        return _Cut(tuple(part for own in flat for part in own), not under)
+        return _Cut(tuple(part for own in parts for part in _parts(own, not under)), not under)
+
+
+def _parts(part: _Cut | int, beside: bool) -> tuple[_Cut | int, ...]:
+    """Return the parts of a part of the page that is cut alike, else it alone."""
+    return part.parts if isinstance(part, _Cut) and part.beside is beside else (part,)
+
+
+def _either_way(least: NDArray[np.int16]) -> NDArray[np.int16]:
+    """Return the least of each side by the other one: a row is as high as its width allows, and the other way about."""
+    import numpy as np
+
+    return np.minimum(least, _turned(least)[::-1])  # what is least never rises
 
 
 def _in_two(tables: Sequence[NDArray[np.int16]], count: int) -> NDArray[np.int16]:

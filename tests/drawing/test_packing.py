@@ -15,6 +15,7 @@ from kulman.drawing.compose import (
     MANY,
     TOLD,
     Pages,
+    _climbs,
     arrange,
     compose,
     in_any_order,
@@ -259,6 +260,41 @@ def test_views_of_the_only_page_stand_in_any_order_where_no_usual_one_has_room(h
         judge(views, places, "A1")
         beside = [place.x + wide for place, (wide, _) in zip(places, views, strict=True)]
         assert all(places[0].x < right for right in beside)  # nothing stands left of what is given
+
+
+@pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.soak)])
+def test_figures_come_down_one_column_after_the_other_where_they_can(count):
+    r, room, found = random.Random(4), (800.0, 560.0), 0
+    for _ in range(count):
+        views = [(r.uniform(40, 200), r.uniform(40, 200)) for _ in range(r.randint(8, 26))]
+
+        columns = Slicing(views, room, figures=[True] * len(views))
+
+        if columns.fits:
+            assert Slicing(views, room).fits
+            at = {i: Placement(0, x, y) for i, x, y in spread(columns.cut(), views, (0.0, room[1]), room)}
+            page = [(View("", (), (0.0, 0.0, *size)), at[i]) for i, size in enumerate(views)]
+            assert in_order({i: (at[i].x, at[i].y, at[i].x + w, at[i].y + h) for i, (w, h) in enumerate(views)})
+            assert _climbs(page) == 0
+            found += 1
+    assert count / 4 < found < count
+
+
+@pytest.mark.parametrize(
+    ("places", "climbs"),
+    [
+        ([(0, 200), (0, 0), (200, 200), (200, 0)], 0),  # two columns
+        ([(0, 200), (200, 200), (0, 0), (200, 0)], 0),  # two rows
+        ([(0, 300), (0, 0), (200, 300), (400, 300), (200, 0), (400, 0)], 1),  # rows beside a column
+        ([(0, 0), (0, 200)], 1),
+        ([], 0),
+    ],
+)
+def test_figures_climb_in_columns_or_from_the_right_to_the_left_of_one_row(places, climbs):
+    size = 90.0
+    page = [(View(str(k), (), (0.0, 0.0, size, size)), Placement(0, x, y)) for k, (x, y) in enumerate(places)]
+
+    assert _climbs(page) == climbs
 
 
 def test_texts_alone_and_nothing_have_an_order_too():
