@@ -6,9 +6,11 @@ through both, whatever pieces it was drawn in. All that is looked for later is a
 
 from __future__ import annotations
 
+import cmath
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -32,6 +34,8 @@ AT_ONCE = 1000  # lines about which others are looked for
 CELL = 0.5  # mm, side of the squares in which nodes are looked up
 WAYS, LENGTHS, LONGEST = 64, 32, 1500.0  # of lines that go out: directions, and lengths up to mm that are told apart
 BINS, FAR = 1440, 10_000.0  # directions of lines by which they are looked up; mm, beyond all sizes
+MOSTLY = 0.7  # part of all letters that tells how a sheet is turned
+APART = 1000.0  # mm between pages
 REACH = 3  # squares around a node from which it is found
 SQUARES = 16_000_000  # the most squares
 FINE = 65_000.0  # of `REACH`, by which nodes are told nearer
@@ -43,11 +47,12 @@ Indices = NDArray[np.intp]
 
 @dataclass(frozen=True, slots=True)
 class Letter:
-    """A text of a drawing: its middle and its height, mm."""
+    """A text of a drawing: its middle, its height, mm, and the way it is written; 0 where that is not known."""
 
     text: str
     place: complex
     height: float
+    way: complex = 0j
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +67,33 @@ class Drawn:
     letters: tuple[Letter, ...] = ()
     arrows: Indices = field(default_factory=lambda: np.zeros(0, np.intp))
     by_hand: bool = False
+
+    @property
+    def ends(self) -> Complex:
+        """The ends of all segments."""
+        return np.concatenate((self.tails, self.tips))
+
+    @property
+    def turn(self) -> int | None:
+        """By how many right angles the sheet is turned, 0 to 3, as most of what is written on it tells, if it does."""
+        told = Counter[int]()
+        for letter in self.letters:
+            if letter.way:
+                told[round(cmath.phase(letter.way) / (math.pi / 2.0)) % 4] += len(letter.text)
+        most = told.most_common(1)
+        return most[0][0] if most and most[0][1] >= MOSTLY * told.total() else None
+
+
+def side_by_side(pages: Iterable[Drawn]) -> Drawn:
+    """Return the pages of a drawing as one, beside one another."""
+    whole, *others = pages
+    for page in others:
+        by = whole.ends.real.max() - page.ends.real.min() + APART
+        letters = (replace(letter, place=letter.place + by) for letter in page.letters)
+        arrows = np.append(whole.arrows, page.arrows + len(whole.tails))
+        ends = (np.append(own, other + by) for own, other in ((whole.tails, page.tails), (whole.tips, page.tips)))
+        whole = Drawn(*ends, (*whole.letters, *letters), arrows, whole.by_hand)
+    return whole
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +178,13 @@ class Lines:
                 break
             reached = max(reached, high + BESIDE)
         return reached >= size - BESIDE
+
+    def stand_free(self, starts: Complex, stops: Complex) -> bool:
+        """Whether no other long segment meets some lines, and none of these goes on."""
+        own, long = shapely.union_all(_segments(starts, stops)), np.abs(self.tips - self.tails) > SEED
+        tails, tips = self.tails[long], self.tips[long]
+        near = shapely.dwithin(_segments(tails, tips), own, ASIDE)
+        return all((shapely.distance(_points(ends[near]), own) <= BESIDE).all() for ends in (tails, tips))
 
     def end(self, place: complex, ways: Complex) -> complex | None:
         """Return where ends of lines going out some ways (unit directions) meet near a place; None where none do."""

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, SupportsFloat, TypeVar
 
 from ...drawing.words import GREEK
 from ...plans.marking.answers import FREE, Answer
-from ...plans.marking.lines import Drawn
+from ...plans.marking.lines import Drawn, side_by_side
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written, as_one
 from ...scales.names import unknown
@@ -35,6 +35,8 @@ from .cells import Asked, Mu
 NUMBERS = ("mm", "mu", "value")
 PARTS = (*NUMBERS, "direction")
 PRINTED = "printed"
+_PAGE = re.compile(r"(.*[^\W\d].*?)[-_ ]+([1-9])")  # the name of a file, and the number of a page
+MOST_PAGES = 6  # of one student's drawing
 LONGEST = 2000.0  # mm; no sheet has longer segments
 SUFFIXES = (*TABLES, *DRAWINGS, *PICTURES)  # of files with answers
 Columns = Mapping[str, tuple[int | None, str]]  # by what they hold: which they are, and the unit over them
@@ -571,9 +573,9 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Warn | None) -
 
 
 def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
-    """Go through answers, pages of one student that are on pictures with names alike but for a number together."""
+    """Go through answers, pages of one student together: drawings, and pictures, with names alike but for a number."""
     before: Answers | None = None
-    for one in found:
+    for one in _drawn_together([*found]):
         if before is not None and before.photos and one.photos and stem_of(before.source) == stem_of(one.source):
             groups = together([*before.photos, *one.photos])
             if len(groups) == 1:
@@ -584,6 +586,28 @@ def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
         before = one
     if before is not None:
         yield before
+
+
+def _drawn_together(found: Sequence[Answers]) -> Iterator[Answers]:
+    """Go through answers, drawings that are numbered as pages are, from 1 on, as one whose pages lie side by side."""
+    pages, first = dict[tuple[Path, str], dict[int, Answers]](), dict[int, list[Answers]]()
+    for one in found:
+        path = Path(one.source)
+        numbered = _PAGE.fullmatch(path.stem)
+        if one.drawn is not None and numbered:
+            pages.setdefault((path.with_name(numbered[1]), path.suffix), {}).setdefault(int(numbered[2]), one)
+    for several in pages.values():
+        if 1 < len(several) == max(several) <= MOST_PAGES:
+            of_one = [several[number] for number in sorted(several)]
+            first |= {id(page): of_one if number == 1 else [] for number, page in several.items()}
+    for one in found:
+        own = first.get(id(one), [one])
+        if len(own) > 1:
+            drawn = side_by_side([page.drawn for page in own if page.drawn is not None])
+            told = InputError("drawing-pages", file=quote(one.source, SHOWN), n=len(own))
+            yield replace(one, drawn=drawn, problems=(*one.problems, told))
+        elif own:
+            yield one
 
 
 def stem_of(source: str) -> str:
