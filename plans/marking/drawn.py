@@ -141,6 +141,12 @@ class _Search:
                 found.append(shape)
         return {shape.plan: shape for shape in sorted(found, key=lambda shape: -len(shape.lines))}
 
+    @cached_property
+    def turns(self) -> tuple[float, ...]:
+        """By how much the sheet may be turned, radians: as what is written on it, else by any right angles."""
+        turn = self.laying.drawn.turn
+        return TURNS if turn is None else (TURNS[turn],)
+
     def found(self) -> Recognised:
         """Lay all plans, and name what they find."""
         fits = self._fits()
@@ -160,7 +166,7 @@ class _Search:
         """Return what part of all lines of the right plans may be there, at a first look; see the function."""
         weights = {shape: float(shape.weights.sum()) for shape in self.plans.values() if not shape.flat}
         whole, most = sum(weights.values()), 0.0
-        for turn in TURNS:
+        for turn in self.turns:
             may = whole
             for shape, weight in weights.items():
                 spare = (may - least * whole) / weight if least else 1.0  # part of it that may lack
@@ -188,17 +194,18 @@ class _Search:
 
         By how much the sheet is turned, a multiple of a right angle, the right plans tell where they are most of it.
         """
-        laid = {t: [self.laying.best(shape, t, ENOUGH) for shape in self.plans.values()] for t in TURNS}
+        laid = {t: [self.laying.best(shape, t, ENOUGH) for shape in self.plans.values()] for t in self.turns}
         right = {turn: [fit for fit in fits if fit is not None] for turn, fits in laid.items()}
-        turn = max(TURNS, key=lambda turn: sum(fit.worth for fit in right[turn]))
+        turn = max(self.turns, key=lambda turn: sum(fit.worth for fit in right[turn]))
         self._resized(right[turn])
-        told = {turn: [fit for fit in right[turn] if self._told(fit)] for turn in TURNS}
+        told = {turn: [fit for fit in right[turn] if self._told(fit)] for turn in self.turns}
         likely = max(sum(fit.worth for fit in fits) for fits in told.values()) - UNTOLD
-        turns = [turn for turn in TURNS if sum(fit.worth for fit in told[turn]) >= likely]
+        turns = [turn for turn in self.turns if sum(fit.worth for fit in told[turn]) >= likely]
         whole = sum(float(shape.weights.sum()) for shape in self.plans.values() if not shape.flat)
         if len(turns) == 1 and sum(fit.lines for fit in told[turns[0]]) >= TELLING * whole:
             return self._at(turns[0])[0]
-        fits, _, self.common = max(map(self._at, self._turns(right, turns)), key=lambda found: found[1])
+        turns = self._turns(right, turns if likely > 0.0 else [])
+        fits, _, self.common = max(map(self._at, turns), key=lambda found: found[1])
         return fits
 
     def _turns(self, right: Mapping[float, list[Fit]], likely: list[float]) -> list[float]:
@@ -209,20 +216,20 @@ class _Search:
         """
         plans = [plan for plan, shape in self.plans.items() if not shape.flat]
         whole = sum(float(self.plans[plan].weights.sum()) + USUAL for plan in plans)
-        worth = dict.fromkeys(TURNS, 0.0)
+        worth = dict.fromkeys(self.turns, 0.0)
         for turn, fits in right.items():
             most = dict.fromkeys(plans, 0.0) | {fit.shape.plan: fit.worth - fit.told for fit in fits}
             for plan in plans:
                 laid = self.laying.lay_all(self._shapes(plan)[1:], turn, 0.0, ENOUGH, usually=True)
                 worth[turn] += max([most[plan], *(way.most for way in laid)])
         if max(worth.values()) < ENOUGH * whole:
-            if len(likely) < len(TURNS) or not plans:
-                return likely
-            ways = {turn: self._ways(plans[0], turn, 1.0 - ALL) for turn in TURNS}
+            if likely or not plans:
+                return likely or [*self.turns]
+            ways = {turn: self._ways(plans[0], turn, 1.0 - ALL) for turn in self.turns}
             lines = {t: max((fit.lines for fit in fits if self._told(fit)), default=0.0) for t, fits in ways.items()}
             self.usually = max(lines.values()) < MANY_LINES
             worth = worth if self.usually else lines
-        return [turn for turn in TURNS if worth[turn] >= max(worth.values()) - UNTOLD]
+        return [turn for turn in self.turns if worth[turn] >= max(worth.values()) - UNTOLD]
 
     def _resized(self, right: list[Fit]) -> None:
         """See whether several plans are drawn so many times as large as on the sheet: then all may be."""
@@ -239,7 +246,13 @@ class _Search:
 
     def _told(self, fit: Fit) -> bool:
         """Whether a plan is drawn as it fits, and not found so by chance: of its usual size, or of many lines."""
-        return not fit.shape.flat and not fit.against and 1.0 - fit.quality <= ALL and self._by_size(fit)
+        whole = not fit.shape.flat and not fit.against and 1.0 - fit.quality <= ALL
+        return whole and self._by_size(fit) and self._evident(fit, fit.shape.right)
+
+    def _evident(self, fit: Fit, expected: bool) -> bool:
+        """Whether a plan is drawn and not found in other lines; it may be `expected` to be so, at its usual size."""
+        usual = self.laying.expected(fit.shape.plan)
+        return self.laying.evident(fit, expected and (not usual or abs(fit.mu / usual - 1.0) < SAME_MU))
 
     def _by_size(self, fit: Fit) -> bool:
         """Whether a plan is of its usual size, or of so many lines that it may have any."""
@@ -264,14 +277,20 @@ class _Search:
             usual = next((fit for fit in ways if fit.shape.explained(self.common)), ways[0])
             best = max(filter(self._by_size, ways), key=lambda fit: fit.worth, default=usual)
             chosen = best if best.worth > usual.worth + OTHER else usual
-            by_chance = self.laying.arrows and not (self._by_size(chosen) or chosen.senses.any())
-            if chosen.quality >= ENOUGH and not by_chance:
+            by_chance = self.laying.arrows and not (self._by_size(chosen) or chosen.senses @ chosen.weights > 0.0)
+            if chosen.quality >= ENOUGH and not by_chance and self._evident(chosen, chosen.shape.right):
                 self._take(fits, chosen)
+        if not any(self.common in fit.shape.broken for fit in fits.values() if not fit.shape.right):
+            self.common = RIGHT  # no plan that is drawn has the mistake
         for plan in [plan for plan in self.plans if plan not in doubtful and plan not in sure]:
             # one line follows from the others
             shapes = [shape for shape in self._shapes(plan) if shape.explained(self.common)]
             found = [
-                fit for shape in shapes if (fit := self.laying.best(shape, turn)) is not None and fit.quality >= ENOUGH
+                fit
+                for shape in shapes
+                if (fit := self.laying.best(shape, turn)) is not None
+                and fit.quality >= ENOUGH
+                and self._evident(fit, expected=True)
             ]
             if found:
                 self._take(fits, max(found, key=lambda fit: fit.worth))

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...scales.names import latin
+from ..laws import cross
 from .lines import WAYS, Complex, Drawn, Floats, Indices, Lines, length_of
 from .ways import Shape
 
@@ -38,6 +39,8 @@ SMALL = 1e-99  # of a plan of which nothing can be seen
 UNSEEN = 0.15  # part of a plan by which lines that go out may tell less of it than there is
 SURELY = 7.0  # mm from which a vector surely has a direction
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
+ALONG = math.radians(1.0)  # by which lines that run along the edges of the sheet may miss their direction
+POINTED_OUT = 0.5  # part of its lines with arrowheads, or of its points with letters, that shows a plan
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
 USUAL = 2.0  # what it is worth that a plan is drawn to its usual scale
 FREE = 0.3  # what it is worth that no line goes on beyond its ends, as those of tables and frames do, or none is askew
@@ -445,6 +448,29 @@ class Laying:
             if node >= 0 and way:
                 found.setdefault(int(self.lines.hubs[node]), []).append(way / abs(way))
         return found
+
+    def evident(self, fit: Fit, expected: bool) -> bool:
+        """Whether a plan is drawn where it fits, and not found by chance in the lines of a table, a frame, a ruler.
+
+        These run along the edges of the sheet and meet one another; lines of a scheme are cut by what stands on them.
+        Arrowheads or letters tell a plan, or that it has lines askew to the sheet and to one another. One that is
+        `expected` may be a single line, along the edges if nothing else meets it.
+        """
+        named = sum(map(bool, fit.shape.letters))
+        drawn_by = zip(fit.pairs, fit.weights[fit.there].tolist(), strict=True)
+        others = sum(weight for pair, weight in drawn_by if named and self._hubs(pair) in self.used)
+        if not fit.lines or 2.0 * others > fit.lines:  # of points alone no two plans have lines together
+            return False
+        told = float(fit.senses @ fit.weights) / fit.lines, fit.letters / max(named, 1)
+        if max(told) >= POINTED_OUT or (expected and max(told) > 0.0):
+            return True
+        spans = fit.shape.spans[fit.there] * fit.factor
+        longest = complex(spans[np.abs(spans).argmax()])
+        askew = np.minimum(np.abs(spans.real), np.abs(spans.imag)) > np.maximum(ALONG * np.abs(spans), SHORT)
+        if askew.any() and (expected or np.abs(cross(longest, spans)).max() > SHORT * abs(longest)):
+            return True
+        ends = self.lines.nodes[np.array(fit.pairs, np.intp).reshape(-1, 2)]
+        return expected and self.lines.stand_free(*ends.T)
 
     def _nodes(self, places: Complex) -> Indices:
         """Return the nodes of marks: near enough, or -1."""

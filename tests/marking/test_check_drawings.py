@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman import check, sheet
+from kulman import check, handout, sheet
 from kulman.drawing.linkages.reading import read
 from kulman.drawing.shapes import Group, Line, Text
 from kulman.drawing.writers import slug
@@ -194,6 +194,110 @@ def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:
     assert {line.name for line in found.lines if line.verdict.faulty} == set()
     assert {line.verdict for line in found.lines if line.plan == "velocity"} == {Verdict.MISSING}
     assert any("Velocity plan" in note.text("en") and "V_B" in note.text("en") for note in found.notes)
+
+
+@pytest.mark.parametrize(("names", "students"), [
+    pytest.param(("plans-1", "plans-2"), 1, id="pages"),
+    pytest.param(("plans-3", "plans-4"), 2, id="variants"),
+    pytest.param(("plans-1", "other-2"), 2, id="two names"),
+])  # fmt: skip
+def test_drawings_numbered_as_pages_are_are_one_students(tmp_path: Path, names: tuple[str, str], students: int) -> None:
+    ready, key = asked("nau-slider-crank")
+    lines, texts = plans_of(key, key.key.paper.program, key.key.values)
+    half = {
+        name: [line for line in lines if (line[0].imag < 0.6 * APART) is under]
+        for name, under in zip(names, (True, False), strict=True)
+    }
+    for name, page in half.items():
+        low = min(end.imag for line in page for end in line)
+        moved = [(a - 1j * low, b - 1j * low) for a, b in page]
+        own = [(at - 1j * low, text) for at, text in texts if (at.imag < 0.6 * APART) is (name == names[0])]
+        (tmp_path / f"{name}.dxf").write_bytes(as_dxf(moved, own))
+
+    answers = ready.read(str(tmp_path))
+    first = ready.mark(answers[0]).marked
+
+    assert len(answers) == students
+    assert {line.verdict for line in first.lines if line.verdict.faulty} == set()
+    whole = {line.plan for line in first.lines if line.verdict is Verdict.RIGHT} >= {"velocity", "forces_23"}
+    assert whole is (students == 1)
+    assert any(note.key == "drawing-pages" for note in first.notes) is (students == 1)
+
+
+def of_plan(key: Keyed, lines: Lines, plan: str) -> Lines:
+    """The lines of one plan of those that `plans_of` draws."""
+    drawn = [plan for plan in key.key.paper.program.plans if role(plan).kind != LEVER and plan in key.key.paper.mus]
+    number = drawn.index(plan)
+    pole = complex(APART * (number % 3), APART * (number // 3))
+    return [line for line in lines if abs(line[0] - pole) < 0.5 * APART]
+
+
+@pytest.mark.parametrize(("task", "variant"), some([("scheme-08-planer", "0"), ("scheme-09-shaper", "1")], 0))
+def test_a_lever_is_no_velocity_plan_of_a_sheet_that_is_turned(tmp_path: Path, task: str, variant: str) -> None:
+    """The second page of a sheet has force plans and Zhukovsky's lever, the velocity plan turned by a right angle."""
+    ready, key = asked(task, variant=variant)
+    lines, texts = plans_of(key, key.key.paper.program, key.key.values)
+    forces = [line for plan in ("forces_23", "forces_1") for line in of_plan(key, lines, plan)]
+    lever = [(1.25j * a, 1.25j * b) for a, b in of_plan(key, lines, "velocity")]
+    file = tmp_path / "x.dxf"
+    file.write_bytes(as_dxf([*forces, *lever], texts))
+
+    found = marked(ready, file)
+
+    assert set(verdicts(found).values()) == {Verdict.RIGHT}
+    assert {line.plan for line in found.lines if line.verdict is Verdict.RIGHT} >= {"forces_23", "forces_1"}
+    assert {line.verdict for line in found.lines if line.plan == "velocity"} == {Verdict.MISSING}
+
+
+@pytest.mark.parametrize("letters", [True, False])
+def test_what_is_drawn_right_is_right_whatever_follows_it(tmp_path: Path, letters: bool) -> None:
+    """V_BA askew was read as the plan of a crank that stands elsewhere, on a sheet upside down: V_A was wrong."""
+    ready, _ = asked("nau-slider-crank", variant="3", only="velocity")
+    p, a, b = (100.0, 100.0), (150.8, 129.3), (145.0, 100.0)
+    p, a, b = (complex(*point) for point in (p, a, b))
+    file = tmp_path / "own.dxf"
+    names = [(p - 5, "p"), (a + 2, "a"), (b + 1 - 4j, "b")] if letters else []
+    file.write_bytes(as_dxf([(p, a), (a, b), (p, b)], [(20 + 190j, "μ_V = 0,1 (м/с)/мм"), *names]))
+
+    said = verdicts(marked(ready, file))
+
+    assert said == {"V_A": Verdict.RIGHT, "V_BA": Verdict.WRONG, "V_B": Verdict.CARRIED}
+
+
+BLANKS = [
+    ("nau-slider-crank", "3", "velocity"), ("nau-slider-crank", "4", None), ("scheme-06-opposed-compressor", "1", None),
+    ("nau-slider-crank", "0", None), ("scheme-01-compressor", "1", None), ("scheme-04-v-engine", "1", None),
+    ("madi-four-bar", "17", None), ("scheme-14-jaw-crusher", "1", None),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("task", "variant", "only"), some(BLANKS, 0, 1))
+def test_nothing_is_drawn_on_a_blank(tmp_path: Path, task: str, variant: str, only: str | None) -> None:
+    """Lines of its tables were read as the plan of a crank along the edges of the sheet; blanks got 20 to 40 of 100."""
+    file = tmp_path / "blank.pdf"
+    handout(task, variant, only=only, lang="uk").save(file)
+
+    with pytest.raises(InputError) as error:
+        marked(check(task, variant, only=only, lang="en"), file)
+
+    assert error.value.key == "drawing-unknown"
+
+
+SOME_PLANS = [("nau-slider-crank", "3"), ("scheme-14-jaw-crusher", "1"), ("scheme-11-slotter", "1")]
+
+
+@pytest.mark.parametrize("only", some(["velocity", "position,velocity", "position,velocity,acceleration"], 0, 2))
+@pytest.mark.parametrize(("task", "variant"), some(SOME_PLANS, 0))
+def test_plans_that_are_not_drawn_are_not_found_in_other_lines(
+    tmp_path: Path, task: str, variant: str, only: str
+) -> None:
+    file = tmp_path / "some.dxf"
+    sheet(task, variant, only=only).save(file)
+
+    found = marked(check(task, variant, lang="en"), file)
+
+    assert set(verdicts(found).values()) == {Verdict.RIGHT}
+    assert {line.plan for line in found.lines if line.verdict is Verdict.RIGHT} == {*only.split(",")} - {"position"}
 
 
 def test_a_vector_too_short_to_be_seen_costs_nothing(tmp_path: Path) -> None:

@@ -152,7 +152,8 @@ def _letters(pieces: Sequence[_Piece]) -> Iterator[Letter]:
     for piece in (*pieces, None):
         if run and (piece is None or not _goes_on(run, piece)):
             largest = max(one.height for one in run)
-            yield Letter(_spelled(run), (run[0].start + run[-1].end) / 2.0, largest)
+            start, end = run[0].start, run[-1].end
+            yield Letter(_spelled(run), (start + end) / 2.0, largest, end - start)
             run = []
         run += [piece] if piece is not None else []
 
