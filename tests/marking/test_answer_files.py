@@ -246,6 +246,15 @@ def test_a_form_may_have_its_columns_in_any_order_names_alike_and_answers_twice(
     assert ["answered a second time" in text for text in messages(twice)] == [True]
 
 
+def test_what_is_no_quantity_is_told_as_it_is_typed(tmp_path: Path) -> None:
+    odd = one(tmp_path, f"{HEAD}{ROW}скорость точки;5;;;;\nМ_хр;3;;;;\n")
+
+    assert [name for text in messages(odd) for name in ("скорость точки", "М_хр") if text.count(name) == 2] == [
+        "скорость точки",
+        "М_хр",
+    ]
+
+
 def test_columns_that_changed_places_are_put_back_and_others_stay(tmp_path: Path) -> None:
     own = "V_B;2,76;0,05;55,2;;\nV_A;4;0,05;80;;\nV_BA;2,1;0,05;42;;\na_B;220;4;55;;\n"
     scales, rows = "mu_V;;0,05;;;\nmu_a;;4;;;\n", "V_B;2,76;;55,2;;\nV_A;4;;80;;\nV_BA;2,1;;42;;\na_B;220;;55;;\n"

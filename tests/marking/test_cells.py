@@ -116,7 +116,7 @@ def test_a_calculation_in_a_cell_gives_its_result_and_is_told_of_where_it_is_wro
     [
         ("nau-slider-crank", ["makes 0, not", "makes 55,1487", "makes 41.56061", "makes 67,09136"]),
         ("madi-four-bar", ["omega_2", "makes 1267,528", "makes 5419,91", "makes 2283,039"]),
-        ("madi-gear", ["D6, a:", "d_b1", "s_1", "rho_p2", "epsilon_alpha", "s_a2"]),
+        ("madi-gear", ["D5, a:", "d_b1", "s_1", "rho_p2", "epsilon_alpha", "s_a2"]),
         ("madi-cam", ["makes 0.5, not 55", "makes 1,226"]),
         ("bertyaev-six-bar", ["epsilon_2: '0,597 / 97' makes 0,006154639"]),
     ],

@@ -105,7 +105,7 @@ class Asked:
     def meant(self, text: str) -> str:
         """Return the name of what is written by its name, or as the sheet shows it: `M_зр`, `ω_2`, `F_и3`, `VB`."""
         name = latin(text)
-        return name if name in {*self.names} | self.others else self.symbols.get(folded(text), name)
+        return name if name in {*self.names} | self.others | self.unasked else self.symbols.get(folded(text), text)
 
     @property
     def names(self) -> tuple[str, ...]:
