@@ -129,7 +129,7 @@ def show_guide(topic: str | None, lang: str | None) -> None:
     page(guide(topic, system_language()))
 
 
-@console.command("kulman list", "kulman list кулачковий", "kulman list --json", name="list")
+@console.command("kulman list", "kulman list {word}", "kulman list --json", name="list")
 @click.argument("words", metavar="WORD...", nargs=-1, shell_complete=helping.completing(helping.tasks))
 @console.as_json
 @click.option("--check", "file", metavar="FILE", shell_complete=helping.files)
@@ -214,7 +214,7 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
 @console.command(
     "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
-    "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
+    "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student '{student}'",
     "kulman sheet scheme-09-shaper --positions 12 -o positions.pdf",
     "kulman sheet scheme-09-shaper -o moving.html -o construction.ggb",
 )
@@ -252,7 +252,7 @@ def page(tasks: tuple[str, ...], folder: str, jobs: int, lang: str | None) -> in
 
 
 @console.command(
-    "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student 'І. Петренко'",
+    "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student '{student}'",
     "kulman note madi-four-bar --figure velocity -o velocity.svg",
     "kulman note nau-slider-crank -v 3 --readings ruler --profile dstu3008 -o note.pdf",
 )
@@ -328,7 +328,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
 @console.command(
     "kulman new my-mechanism.toml",
-    "kulman new мій-механізм.toml --lang uk",
+    "kulman new {file}",
     "kulman new my-cam.toml --kind cam",
     "kulman new --from scheme-09-shaper my-shaper.toml",
 )

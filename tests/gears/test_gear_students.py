@@ -190,9 +190,10 @@ def test_form_asks_for_no_given_in_the_sections_of_the_note_and_right_answers_ge
     found = verdicts(tmp_path / "class.csv", {n: float(value) for n, value in shown.items() if value is not None})
 
     assert not {"m", "z_1", "x_1", "alpha", "PW", "mu_theta", "theta_12_01", "y_1_01"} & set(asked)
-    headings = ["Main sizes", "Auxiliary sizes", "Quality by geometry", "Sizes to measure", "Measured on the drawing"]
+    headings = ["Main dimensions", "Auxiliary dimensions", "Geometrical quality indices", "Dimensions for inspection"]
+    headings.append("Measured on the drawing")
     assert [asked.index(heading) for heading in headings] == sorted(asked.index(heading) for heading in headings)
-    assert asked.index("Main sizes") < asked.index("a_w") < asked.index("Auxiliary sizes") < asked.index("d_b1")
+    assert asked.index(headings[0]) < asked.index("a_w") < asked.index(headings[1]) < asked.index("d_b1")
     assert len(shown) > 100
     assert set(found.values()) <= {Verdict.RIGHT, Verdict.MISSING}
     assert [name for name in shown if found[name] is Verdict.MISSING] == []

@@ -376,7 +376,7 @@ def test_sliding_driver_is_stated_along_its_guide_and_balanced_by_a_force() -> N
     assert told(scene, "[[R21]]") == "[[R21]] + [[Fi1]] + [Fbal] + [R01] = 0, Fbal ∥ x–x, R01 ⊥ x–x"
     assert re.search(r"= 0\.\d\d %$", told(scene, "ΔFbal = (FLbal − Fbal)/FLbal·100 % ="))
     assert told(scene, "ε3 = atA/lOA =").endswith("= 0 rad/s2")
-    assert "ε3 = 0: at this place link 3 turns steadily" in map(plain, lines_of(scene))
+    assert "ε3 = 0: in this position link 3 turns uniformly" in map(plain, lines_of(scene))
     assert told(bundled("scheme-19-scotch-yoke"), "R03 = 0") == "R03 = 0: the pair bears the moment M03 alone"
 
 

@@ -174,7 +174,10 @@ def _row(ctx: click.Context, command: str, option: click.Option) -> tuple[str, s
 
 
 class Command(click.Command):
-    """A command whose help is in the language of messages; its `epilog` is example commands, a line each."""
+    """A command whose help is in the language of messages; its `epilog` is example commands, a line each.
+
+    Names of people, files and words to look for are those of the language.
+    """
 
     @property
     def told(self) -> str:
@@ -202,7 +205,8 @@ class Command(click.Command):
             with formatter.section(words["commands"]):
                 formatter.write_dl(rows)
         with formatter.section(words["example"]), formatter.indentation():
-            formatter.write("".join(f"  {line}\n" for line in (self.epilog or "").splitlines()))
+            lines = (self.epilog or "").format(**words).splitlines()
+            formatter.write("".join(f"  {line}\n" for line in lines))
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
         """Return what a shell may complete, options and commands, with what they do."""

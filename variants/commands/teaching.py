@@ -111,7 +111,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 
 @console.command(
     "kulman batch nau-slider-crank --form class.xlsx",
-    "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
+    "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher '{teacher}'",
     "kulman batch nau-slider-crank --roster class.xlsx --out blanks --as handout --only velocity --merge",
     "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
 )
