@@ -43,7 +43,7 @@ BLOCK = ("student", "group", "teacher", "department", "designation", "work", "da
 LETTERS = "0123456789ABCDEFGHJKMNPQRSTVWXYZ"  # of base 32 without I, L, O, U, which are misread
 LENGTH = 6
 _MISREAD = str.maketrans({"O": "0", "I": "1", "L": "1", "І": "1", " ": None, "-": None, "–": None, "−": None})
-_NUMBERED = re.compile("[A-Za-z]{0,3}[0-9]{1,6}[a-z]?")
+_NUMBERED = re.compile("[A-Za-z]{0,3}([0-9]{1,6}[a-z]?)")
 PAPER = "A4"
 APART = (  # what is not asked for together
     ("--hidden-key", "--key"),
@@ -276,12 +276,19 @@ def stamp_of(case: Case) -> Stamp:
 def work_code(case: Case) -> str:
     """Return what designations of the sheets of a case begin with: subject, number of the task, variant (`ТММ.14.03`).
 
-    A variant whose name is no number, nor letters and a number, is known by its place among the others.
+    Of letters and a number, as V03, it is the number if no other variant has it; a variant whose name is neither is
+    known by its place among the others.
     """
-    variant = case.variant
+    variant, numbers = case.variant, [_number_of(name) for name in case.task.variants]
     if _NUMBERED.fullmatch(variant) is None:
         variant = str([*case.task.variants].index(variant) + 1)
+    elif numbers.count(_number_of(variant)) == 1:
+        variant = _number_of(variant)
     return f"{case.words()['sheet.subject']}.{case.task.number:02d}.{variant.zfill(2)}"
+
+
+def _number_of(variant: str) -> str:
+    return _NUMBERED.sub(r"\1", variant).zfill(2)
 
 
 def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:

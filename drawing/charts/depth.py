@@ -268,9 +268,9 @@ def _curves(axes: Axes, found: Choice, S: float, words: Words) -> None:
         labels.append(Label(0.5, float(force[-1]), f"β₀ = {words.short(float(grid.beta_0[row]), 3)}", must=True))
     low, high = axes.get_ylim()
     if low - 0.3 * (high - low) < limit < high + 0.3 * (high - low):
-        axes.axhline(limit, color=paper.GREY, lw=2.0, zorder=1)
+        axes.axhline(limit, color=paper.GREY, lw=2.0, zorder=1, label=words["chart.hoist.permitted"])
         axes.set_ylim(min(low, limit - 0.05 * (high - low)), max(high, limit + 0.05 * (high - low)))
-        labels.append(Label(0.61, limit, words["chart.hoist.permitted"], (-1, 1), must=True))
+        legend(axes, "upper left", bbox_to_anchor=(0.0, -0.075), borderaxespad=0.0)
     axes.set(xlim=(float(grid.beta_2[0]), 0.62), xticks=[0.1, 0.2, 0.3, 0.4, 0.5])
     per_force = KILO / S / MEGA
     stresses = lambda force: np.asarray(force) * per_force, lambda stress: np.asarray(stress) * (1.0 / per_force)

@@ -112,7 +112,7 @@ def test_a_choice_may_set_numbers() -> None:
         ('gamma_rise = "75 deg"', 'gamma_rise = "90 deg"', "variant.gamma_rise", "less than 90°"),
         ('gamma_fall = "60 deg"', "gamma_fall = 0", "variant.gamma_fall", "greater than 0°"),
         ('margin = "5 mm"\n', "r_0 = 7\n", "variant", "the roller, 7 mm, is not smaller than r_0 = 7 mm"),
-        ('margin = "5 mm"\n', "r_0 = 60\ne = -60\n", "variant", "the eccentricity e = −60 mm"),
+        ('margin = "5 mm"\n', "r_0 = 60\ne = -60\n", "variant", "the offset e = −60 mm"),
         ('h = { unit = "mm" }\n', "", "givens", "the key 'h' is missing"),
         ('h = { unit = "mm" }', 'h = { unit = "N" }', "givens.h", "expected one in mm"),
         ("R_roller = {", "r_roller = {", "givens.r_roller", "did you mean 'R_roller'?"),
@@ -161,7 +161,7 @@ def test_what_only_solving_tells_is_a_fault_where_all_faults_are_asked_for() -> 
 
     (told,) = [fault.text() for fault in faults]
     line = text[: text.index("[[variant]]")].count("\n") + 1
-    assert told.startswith(f"t.toml:{line}:1: variant.17: at r_0 = 40 mm no eccentricity keeps")
+    assert told.startswith(f"t.toml:{line}:1: variant.17: at r_0 = 40 mm no offset keeps")
     assert read_text(text, "t.toml")[1] == ()  # refused when it is solved
     assert check_text(TEXT, "t.toml") == ((), ())
 

@@ -57,7 +57,7 @@ def test_given_radius_has_a_range_of_offsets_or_a_reason_why_there_is_none(solut
     wide = solve(TASK, set={"r_0": 60}).solved.values
 
     assert wide["e_least"] < wide["e"] < wide["e_most"]
-    with pytest.raises(InputError, match=r"at r_0 = 45 mm no eccentricity keeps .* takes at least 45\.2582 mm"):
+    with pytest.raises(InputError, match=r"at r_0 = 45 mm no offset keeps .* takes at least 45\.2582 mm"):
         solve(TASK, set={"r_0": 45})
     assert "e_least" not in solution
     for name in ("e_least", "e_most"):  # at either end a limit is just kept

@@ -32,7 +32,7 @@ from kulman.plans.lab.integrators import STEPPERS
 from kulman.plans.lab.race import Effort
 from kulman.plans.lab.ropes import depth
 from kulman.plans.linkages.limits import Arc
-from kulman.scales.errors import PositionError
+from kulman.scales.errors import LANGUAGES, PositionError
 from kulman.tests.support.commands import Run
 from kulman.tests.support.documents import run_here
 from kulman.variants.charts.charts import Charts, chart
@@ -441,6 +441,19 @@ def test_better_hands_err_less_at_every_scale_and_the_smallest_that_is_enough_is
     kept = [ratio for ratio, error in zip(RATIOS, errors.errors["normal", name].tolist(), strict=True) if error <= 0.05]
     assert enough == kept[0]
     assert errors.enough("normal", name, 0.0) is None
+
+
+def test_letters_of_curves_stand_clear_of_one_another_within_the_chart_of_choice() -> None:
+    for language in LANGUAGES:
+        figure = made(HOIST)["choice"].figure(made(HOIST).words.speaking(language))
+        figure.draw_without_rendering()
+        _, curves = (axes for axes in figure.axes if len(axes.lines))
+        boxes = [text.get_window_extent() for text in curves.texts]
+
+        assert len(boxes) >= 6
+        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+        assert all(box.x1 < curves.get_window_extent().x1 for box in boxes)
+        assert [text.get_text() for text in curves.get_legend().get_texts()]
 
 
 def test_labels_stand_at_their_points_with_room_between_them() -> None:

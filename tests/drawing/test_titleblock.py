@@ -132,7 +132,7 @@ def test_what_a_user_says_is_words_and_no_symbol_of_a_quantity(said: str) -> Non
     [
         pytest.param(*("scheme-14-jaw-crusher", "3", "uk", None, ["ТММ.14.03.001"] * 2), marks=pytest.mark.soak),
         pytest.param("madi-gear", "17", "en", None, ["TMM.25.17.001"] * 2, marks=pytest.mark.soak),
-        ("karpenko-hoist", "V07", "ru", None, ["ТММ.26.V07.001"]),
+        ("karpenko-hoist", "V07", "ru", None, ["ТММ.26.07.001"]),
         ("nau-slider-crank", "example", "uk", None, ["ТММ.23.11.001"]),
     ],
 )
