@@ -200,7 +200,7 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
     solution, language = solve_task(task, set=settings, **options), options["lang"] or system_language()
     told = replace(solution, words=solution.words.speaking(console.of_documents(options["lang"])))
-    console.say_written(told.save(*files), as_json)
+    console.say_written(told.save(*files), as_json, told.words.language)
     if as_json:
         console.print_json(solution.to_json())
     elif solution.reason is None:

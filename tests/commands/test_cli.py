@@ -282,6 +282,33 @@ def test_the_language_stands_in_the_environment(
     assert said in err
 
 
+TABLES = (
+    ("solve", TASK, "-o", "x.csv"),
+    ("sweep", TASK, "-o", "x.svg", "-o", "x.CSV"),
+    ("variants", TASK, "-o", "x.xlsx"),
+    ("chart", TASK, "--chart", "stability", "-o", "x.html"),
+)
+
+
+@pytest.mark.parametrize("words", TABLES, ids=lambda words: words[0])
+def test_of_tables_in_another_language_than_messages_it_is_told_which_and_how_to_choose(
+    words: tuple[str, ...], run: Run, monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    status, _, err = run(*words)
+    assert status == 0
+    assert f"{words[-1]}: decimal signs, units and words are Ukrainian" in err
+    assert "--lang en" in err
+
+    for language in LANGUAGES:
+        assert "--lang" not in run(*words, "--lang", language)[2]
+    assert "--lang" not in run(*words[:2], "-o", "x.json")[2]
+    monkeypatch.setenv("KULMAN_LANG", "en")
+    assert "--lang" not in run(*words)[2]
+    monkeypatch.delenv("KULMAN_LANG")
+    monkeypatch.setenv("LC_ALL", "uk_UA.UTF-8")
+    assert "--lang" not in run(*words)[2]
+
+
 def test_output_is_utf8_on_every_console(tmp_path: Path) -> None:
     done = shell(["list"], tmp_path, PYTHONIOENCODING="ascii", LC_ALL="uk_UA")
     refused = shell(["solve", TASK, "-v", "щось"], tmp_path, PYTHONIOENCODING="cp1251", LC_ALL="uk_UA")
@@ -641,7 +668,9 @@ def test_tables_of_all_commands_have_numbers_and_units_of_one_language(
         ("chart", TASK, "-v", "3", "--chart", "stability", "--positions", "4", "-o", "chart.csv"),
         ("solve", *velocity, "-o", "solved.html"),
     ):
-        assert run(*command)[::2] == (0, ""), command
+        status, _, err = run(*command)
+        assert status == 0, command
+        assert ("--lang en" in err) is (not said)  # messages are in English, and nobody has chosen a language
 
     texts = {file.name: file.read_text("utf-8-sig") for file in tmp_path.iterdir()}
 

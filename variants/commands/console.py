@@ -13,7 +13,7 @@ import re
 import sys
 import tomllib
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from importlib import import_module
@@ -128,6 +128,7 @@ def _value(key: str, given: object) -> str:
 
 
 CLOSED = 1
+_TABLES = (".csv", ".html", ".xlsx")
 WRITTEN = "uk"  # the language of files where none is said
 LONGEST = 10_000  # characters of a word of the command line: longer is no name, number or path
 # what the title blocks of a class have in common, but for the group that the roster says
@@ -246,10 +247,16 @@ def print_json(data: Mapping[str, Any]) -> None:
     click.echo(json_text(data))
 
 
-def say_written(paths: Iterable[object], as_json: bool) -> None:
-    """Show the names of files that have been written; beside a JSON object, which is alone on stdout, on stderr."""
+def say_written(paths: Sequence[object], as_json: bool, language: str = "") -> None:
+    """Show the names of files that have been written; beside a JSON object, which is alone on stdout, on stderr.
+
+    Of tables, which programs read, it is told in which `language` they are where nobody has chosen it.
+    """
     for path in paths:
         click.echo(str(path), err=as_json)
+    tables = [path for path in map(str, paths) if path.lower().endswith(_TABLES)]
+    if tables and language not in ("", system_language()):
+        warn([InputError("tables-language", file=quote(tables[0], SHOWN), lang=system_language())])
 
 
 def of_documents(lang: str | None, written: bool = True) -> str:
@@ -270,7 +277,7 @@ def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool 
             written = found.save(*files)
         finally:
             watching.reset(token)
-    say_written(written, as_json)
+    say_written(written, as_json, found.words.language)
     if as_json:
         print_json(found.to_json())
     elif tabled and not files:
