@@ -87,6 +87,13 @@ class Quantity:
     # units of products and ratios are not kept
     __mul__, __truediv__, __rtruediv__ = map(_times, (float.__mul__, float.__truediv__, float.__rtruediv__))
     __radd__, __rmul__ = __add__, __mul__
+    __pow__, __rpow__ = map(_times, (float.__pow__, float.__rpow__))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        """Return the value as numpy takes it: `numpy.sqrt(quantity)` is a number."""
+        import numpy as np  # which plain solutions do without
+
+        return np.asarray(float(self), dtype)
 
     def __neg__(self) -> float:
         """Return the value with the other sign."""

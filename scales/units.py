@@ -46,6 +46,8 @@ _LENGTH, _MASS, _TIME, _ANGLE = Dimension(1), Dimension(0, 1), Dimension(0, 0, 1
 _FORCE, _PRESSURE = Dimension(1, 1, -2), Dimension(-1, 1, -2)
 _ENERGY, _POWER = Dimension(2, 1, -2), Dimension(2, 1, -3)
 
+_DEGREES = ("deg", "град", "º", "˚", "degree", "degrees", "градуси", "градусів", "градусы", "градусов")
+
 SYMBOLS: dict[str, _Symbol] = {
     "m": _Symbol(_LENGTH, 1, 1, "m", "м", "м"),
     "dm": _Symbol(_LENGTH, 1, 10, "dm", "дм", "дм"),
@@ -60,8 +62,8 @@ SYMBOLS: dict[str, _Symbol] = {
     "ms": _Symbol(_TIME, 1, 1000, "ms", "мс", "мс"),
     "min": _Symbol(_TIME, 60, 1, "min", "хв", "мин"),
     "h": _Symbol(_TIME, 3600, 1, "h", "год", "ч"),
-    "rad": _Symbol(_ANGLE, 1, 1, "rad", "рад", "рад"),
-    "deg": _Symbol(_ANGLE, math.pi, 180, "°", "°", "°", ("deg", "град", "º", "˚")),
+    "rad": _Symbol(_ANGLE, 1, 1, "rad", "рад", "рад", ("radian", "radians")),
+    "deg": _Symbol(_ANGLE, math.pi, 180, "°", "°", "°", _DEGREES),
     "arcmin": _Symbol(_ANGLE, math.pi, 10_800, "′", "′", "′", ("arcmin", "'", "’")),
     "rev": _Symbol(_ANGLE, 2 * math.pi, 1, "rev", "об", "об", ("r",)),
     "rpm": _Symbol(Dimension(time=-1, angle=1), math.pi, 30, "rpm", "об/хв", "об/мин", ("RPM",)),

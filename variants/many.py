@@ -18,6 +18,7 @@ from ..plans.boards.arrays import CODES
 from ..plans.boards.batch import batch
 from ..plans.boards.exact import STATUSES
 from ..plans.linkages.chain import constructed
+from ..plans.linkages.mechanism import Mechanism
 from ..plans.linkages.solved import board_givens
 from ..plans.quantities import Quantity, results, unit_of
 from ..plans.solved import Columned
@@ -27,7 +28,6 @@ from ..scales.numbers import quote
 from ..scales.series import Series
 from ..scales.units import UnitName, converted, parse, unit
 from .case import Case, Request, Wanted
-from .kinds.linkage import Linkages
 from .reader import load_task
 from .tables import Arrays, html_table
 from .task import AnyTask, Given, LocatedError, Task
@@ -183,6 +183,8 @@ def solve_many(
     (3,)
     """
     asked, first, read = load_task(task), by_name("set", set), dict[str, Array]()
+    if not isinstance(asked.subject, Mechanism):
+        raise InputError("many-linkages", task=quote(asked.id))
     for name, value in {**first, **givens}.items():
         if name not in asked.givens:
             raise unknown("given-unknown", name, asked.givens, task=asked.id)
@@ -204,8 +206,6 @@ def solve_many(
     for said in (said for name, array, value in bare for said in _of_another_unit(asked, name, array, value)):
         warnings.warn(str(said), stacklevel=3)  # of who calls, past what holds kinds of arguments
     case = Request(asked, variant, first, only, language="en" if lang is None else lang).case()
-    if not isinstance(case.kind, Linkages):
-        raise InputError("many-linkages", task=asked.id)
     try:
         shape = np.broadcast_shapes(*(array.shape for array in read.values()))
     except ValueError:

@@ -32,7 +32,7 @@ ROUNDING = 1e-14  # part of the largest quantity of a unit
 class Solution(OfCase, Mapping[str, Quantity]):
     """The answer to one variant of a task: a mapping of its quantities by name, in order of construction.
 
-    `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
+    `solution["V_B"]` is a `Quantity`, of a given such as `solution["m_2"]`, too; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
     hand, are there when asked for.
     """
 
@@ -48,7 +48,11 @@ class Solution(OfCase, Mapping[str, Quantity]):
     @property
     def listed(self) -> dict[str, Quantity]:
         """The quantities of the plans wanted, as a list shows them."""
-        return {name: self.quantities[name] for name in self.kind.listed(self.solved, self.case.plans) if name in self}
+        return {
+            name: self.quantities[name]
+            for name in self.kind.listed(self.solved, self.case.plans)
+            if name in self.quantities
+        }
 
     @property
     def status(self) -> str:
@@ -66,8 +70,11 @@ class Solution(OfCase, Mapping[str, Quantity]):
         return self.case.kind
 
     def __getitem__(self, name: str) -> Quantity:
-        """Return a quantity by its name."""
+        """Return a quantity, or a given, by its name."""
         if name not in self.quantities:
+            given = self.task.givens.get(name)
+            if given is not None and given.unit is not None and name in self.case.values:
+                return Quantity(name, self.case.values[name], given.unit.si.name)
             raise unknown("quantity-unknown", name, self.quantities)
         return self.quantities[name]
 
@@ -103,7 +110,7 @@ class Solution(OfCase, Mapping[str, Quantity]):
         return [*rows, [self.scaled(self.words)]] if self.scales else rows
 
     def to_json(self) -> dict[str, Any]:
-        """Return what `kulman solve --json` prints."""
+        """Return, as a dict, what `kulman solve --json` prints; `save("x.json")` writes its text."""
         return {
             "task": self.task.id,
             "variant": self.variant,

@@ -141,6 +141,14 @@ def json_text(data: Mapping[str, Any]) -> str:
     return json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2)
 
 
+def _pandas() -> Any:
+    """Return the user's own pandas, if there is one."""
+    try:
+        return import_module("pandas")
+    except ImportError:
+        raise InputError("pandas-missing") from None
+
+
 class Result(Saved):
     """What a command has found; `words` are those of its tables and files."""
 
@@ -158,7 +166,15 @@ class Result(Saved):
 
     @abstractmethod
     def to_json(self) -> dict[str, Any]:
-        """Return what is printed with `--json`: everything in SI."""
+        """Return, as a dict, what is printed with `--json`: everything in SI; `save("x.json")` writes its text."""
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas data frame of all rows, as they are in CSV.
+
+        Raises InputError: pandas is not installed.
+        """
+        table = self.data()
+        return _pandas().DataFrame([*map(list, table.rows)], columns=[*table.columns])
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -241,16 +257,21 @@ class Arrays(OfCase):
         return "ok"
 
     def __getitem__(self, name: str) -> Series:
-        """Return the values of a quantity, `"V_B"`, or of a part of it, `"V_B.x"`.
+        """Return the values of a quantity, `"V_B"`, or of a part of it, `"V_B.x"`; what is said of each row, `"status"`.
 
         Raises InputError: there is none of this name.
         """
+        import numpy as np
+
         from ..scales.series import Series  # which needs numpy
 
         of_kind("name", name, (str,), "str")
         for column in self.arrays(name):
             if column.name == name:
                 return Series(column.values, column.name, column.unit)
+        said = self._columns(self.words)[1]
+        if name in said:
+            return Series(np.reshape(said[name], self.statuses.shape), name, "")
         raise unknown("quantity-unknown", name, self)
 
     def __iter__(self) -> Iterator[str]:
@@ -278,20 +299,21 @@ class Arrays(OfCase):
     def to_dataframe(self) -> Any:
         """Return a pandas data frame of all columns in SI, a row for each state, their units in `attrs["units"]`.
 
-        From pandas 3 on it shares what has been found, and pandas copies a column when it is first written into.
+        What is said of each row, such as `status`, comes last. From pandas 3 on it shares what has been found, and
+        pandas copies a column when it is first written into.
 
         Raises InputError: pandas is not installed.
         """
-        try:
-            pandas = import_module("pandas")  # the user's own, if there is one
-        except ImportError:
-            raise InputError("pandas-missing") from None
+        import numpy as np
+
+        pandas = _pandas()
         sharing = int(pandas.__version__.partition(".")[0]) >= COPIES_ON_WRITE
         if not (self._frames and sharing):
             columns = [*self.arrays()]
             arrays = {column.name: column.values.reshape(-1) for column in columns}
             writable = {name: array if array.flags.writeable else array.copy() for name, array in arrays.items()}
-            self._frames[:] = [pandas.DataFrame(writable, copy=not sharing)]
+            said = {name: np.array(states) for name, states in self._columns(self.words)[1].items()}
+            self._frames[:] = [pandas.DataFrame(writable | said, copy=not sharing)]
             self._frames[0].attrs["units"] = {column.name: column.unit for column in columns}
         # as long as the first one is kept, pandas knows that its arrays are not those of another one alone
         return self._frames[0].copy(deep=False) if sharing else self._frames.pop()
@@ -322,7 +344,7 @@ class Arrays(OfCase):
         return Result._file(self, suffix)
 
     def to_json(self) -> dict[str, Any]:
-        """Return what is printed with `--json`: everything in SI."""
+        """Return, as a dict, what is printed with `--json`: everything in SI; `save("x.json")` writes its text."""
         data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
         return {name: plain(value) for name, value in data.items()}
 

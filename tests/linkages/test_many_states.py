@@ -250,9 +250,35 @@ def test_many_states_show_their_ranges_in_a_notebook() -> None:
     assert " ".join(shown).endswith("ok: 1 cannot be assembled: 1")
 
 
-def test_a_gear_pair_is_no_linkage() -> None:
-    with pytest.raises(KulmanError, match="no linkage"):
-        solve_many("madi-gear")
+@pytest.mark.parametrize("task", ["madi-gear", "madi-cam", "karpenko-hoist"])
+def test_what_is_no_linkage_is_refused_as_that_whatever_is_given(task: str) -> None:
+    with pytest.raises(KulmanError, match=f"'{task}' is not a linkage"):
+        solve_many(task, phi=[0.1])
+
+
+def test_a_given_is_found_by_its_name_in_a_solution() -> None:
+    for task in ("scheme-09-shaper", "madi-cam", "karpenko-hoist"):
+        solution, read = solve(task), load_task(task)
+        for name, given in ((name, given) for name, given in read.givens.items() if name in read.values()):
+            if given.unit is not None and name not in solution.quantities:
+                found = solution[name]
+                assert (found.name, found.value, found.unit) == (name, read.values()[name], given.unit.si.name)
+
+
+def test_what_is_said_of_rows_is_in_frames_and_under_its_name() -> None:
+    pandas = pytest.importorskip("pandas")
+    apart = solve_many(TASK, phi=[[0.1], [0.7]], l_AB=([130.0, 20.0], "mm"), names="V_B")
+    for states in (apart, *map(sweep, (TASK, "madi-cam", "karpenko-hoist"))):
+        said = states.columns[-1]
+        assert said in ("status", "bears")
+        assert states[said].ravel().tolist() == [row[-1] for row in states.rows]
+        assert states.to_dataframe()[said].tolist() == [row[-1] for row in states.rows]
+    assert apart["status"].shape == (2, 2)
+    solution = solve(TASK)
+    frame = solution.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame)
+    assert tuple(frame.columns) == solution.columns
+    assert frame["name"].tolist() == [row[0] for row in solution.rows]
 
 
 @pytest.mark.parametrize("task", [TASK, "scheme-18-hydraulic-drive", "madi-cam", "madi-gear", "karpenko-hoist"])
@@ -412,6 +438,17 @@ def test_states_are_saved_as_tables_and_as_json(tmp_path: Any) -> None:
 
 def test_statuses_are_those_of_the_board() -> None:
     assert [*Status] == [*STATUSES]
+
+
+def test_a_quantity_is_a_number_for_powers_and_for_numpy() -> None:
+    speed = Quantity("V_B", 4.0, "m/s")
+
+    assert (speed**2, speed**0.5, 2**speed) == (16.0, 2.0, 16.0)
+    assert np.sqrt(speed) == np.hypot(speed, 0.0) - 2.0 == 2.0
+    assert np.array([speed, speed]).dtype == float
+    assert (np.float64(2.0) * speed, np.float64(2.0) + speed, np.array([1.0]) * speed) == (8.0, 6.0, 4.0)
+    with pytest.raises(TypeError, match="is a point"):
+        np.sqrt(Quantity("B", None, "m", 1.0, 2.0, kind="point"))
 
 
 def test_a_quantity_prints_and_converts() -> None:
