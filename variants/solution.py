@@ -32,8 +32,8 @@ ROUNDING = 1e-14  # part of the largest quantity of a unit
 class Solution(OfCase, Mapping[str, Quantity]):
     """The answer to one variant of a task: a mapping of its quantities by name, in order of construction.
 
-    `solution["V_B"]` is a `Quantity`, of a given such as `solution["m_2"]`, too; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
-    hand, are there when asked for.
+    `solution["V_B"]` is a `Quantity`, and so is a given, `solution["m_2"]`; `reason` says why a position has no plan;
+    `conditions`, and the `drawing` of a hand, are there when asked for.
     """
 
     solved: Solved

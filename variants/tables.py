@@ -257,7 +257,7 @@ class Arrays(OfCase):
         return "ok"
 
     def __getitem__(self, name: str) -> Series:
-        """Return the values of a quantity, `"V_B"`, or of a part of it, `"V_B.x"`; what is said of each row, `"status"`.
+        """Return the values of a quantity, `"V_B"`, of a part of it, `"V_B.x"`, or what is said of rows, `"status"`.
 
         Raises InputError: there is none of this name.
         """

@@ -19,6 +19,7 @@ FOLDERS = [ROOT / name for name in ("scales", "drawing", "variants")]
 WORDS = sorted(file for folder in FOLDERS for file in folder.rglob("*uk.toml") if file.parent.name != "templates")
 TEMPLATES = sorted((ROOT / "variants" / "templates").glob("*.uk.toml"))
 # what stands in a text that no language changes: placeholders, commands, options, suffixes, names of quantities
+HANDED = ("drawing", "variants/serving")
 COMMAND = rf"\bkulman (?:{'|'.join(commands.commands)})\b"
 KEPT = re.compile(rf"(?<![_^])\{{\w+|`[^`]*`|{COMMAND}|--[a-z]+|(?<=[ ,(])\.[a-z]{{2,5}}\b|\b[a-z]+_[A-Z]\w*")
 FOREIGN = {"uk": re.compile("[ыэъё]", re.IGNORECASE), "ru": re.compile("[іїєґ]", re.IGNORECASE)}
@@ -73,6 +74,18 @@ def test_a_file_to_begin_with_is_the_same_task_whatever_its_comments_say(file: P
         assert {key.partition(".")[0] for key in changed} <= {"source", "title"}
         assert re.findall(COMMAND, written[language]) == re.findall(COMMAND, written["en"])
         assert not FOREIGN[language].search(re.sub("^(uk|ru) = .*", "", written[language], flags=re.MULTILINE))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_hand_and_a_guess_are_called_by_one_word_in_a_language(language: str) -> None:
+    rooms = [tomllib.loads((ROOT / room / f"texts/{language}.toml").read_text("utf-8")) for room in HANDED]
+    guide = (ROOT / f"variants/guides/marking.{language}.md").read_text("utf-8")
+    for hand in ("careful", "normal", "lenient"):
+        told = re.findall(rf"^\| `{hand}`, (\w+)", guide, re.MULTILINE) if language != "en" else []
+        assert len({word[:5] for word in (*told, *(room[f"hand.{hand}"] for room in rooms))}) == 1, hand
+    written = (ROOT / f"scales/messages/{language}.toml").read_text("utf-8")
+    guesses = re.findall(r"; ([\w ]+), «?\{like", written)
+    assert len({*guesses}) == (language != "en")
 
 
 @pytest.mark.parametrize("task", bundled())
