@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
-from ....plans.linkages.mechanism import FRAME, Prismatic, Revolute
+from ....plans.linkages.mechanism import FRAME, Driver, Prismatic, Revolute
 from ....plans.names import role
+from ...areas import clipped
 from ...figure import GIVEN
 from ...shapes import Arc, Circle, Group, Line, Pen
 from ...symbols import block, fixed_pivot, guide, revolute, rigid_corner, slider_up, unit
@@ -307,7 +308,28 @@ def foot_of(scene: Scene, point: str, figures: Sequence[Skeleton]) -> complex:
     at = scene.mm(point)
     others = [scene.mm(other) - at for other in scene.mechanism.frame_points]
     rays = rays_at(at, figures) + [unit(way) for way in others if NEAR < abs(way) < 2 * scene.style.pivot[2]]
-    return max(DOWN, key=lambda down: (_room(down, rays) >= ROOM, -DOWN.index(down)))
+    met, driver = {down: _met(scene, at, down, figures) for down in DOWN}, scene.mechanism.driver
+    turned = isinstance(driver, Driver) and driver.pivot == point  # its angle is measured from the right
+
+    def free(down: complex) -> tuple[bool, bool, int, bool, int]:
+        apart = _room(down, rays) >= ROOM
+        return apart and not met[down], apart, -met[down], not (turned and down == 1), -DOWN.index(down)
+
+    return max(DOWN, key=free)
+
+
+def _met(scene: Scene, at: complex, down: complex, figures: Sequence[Skeleton]) -> int:
+    """Return how many lines and points of links stand on the foot of a pivot, on its hatching above all."""
+    (width, height, base), stroke, pair = scene.style.pivot, scene.style.hatch[0], scene.style.pair
+    ground, clear = pair + height, scene.style.centre
+    boxes = (
+        (ground - clear, -base / 2 - clear, ground + stroke + clear, base / 2 + clear),
+        (ground - height / 2, -width / 4, ground, width / 4),
+    )
+    points = {point for figure in figures for point in scene.mechanism.link(figure.number).points}
+    lines = [*(line for figure in figures for line in figure.strokes), *((end, end) for end in map(scene.mm, points))]
+    placed = [((a - at) / down, (b - at) / down) for a, b in lines]
+    return sum(any(clipped(a, b, box) for box in boxes) for a, b in placed)
 
 
 def _coincident(scene: Scene) -> dict[str, list[int]]:
