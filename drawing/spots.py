@@ -30,6 +30,7 @@ ONE = 15.0  # for each letter with which a label reads as one word or as a fract
 ROW = 5.0  # for each letter before or behind it on one line, so near that both may be read as one
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
 BARE = 2.5  # mm around a label: a thin line nearer than this looks like a bar over or under the letter
+LEVEL = 0.2  # sine of the angle up to which one through its own node does so, too
 DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name
 SURELY = 0.3  # mm by which it must be nearer than to another node
 PLAINLY = 0.7  # mm by which it must beside a segment be nearer than to another segment: letters that lean fill no box
@@ -297,10 +298,12 @@ class Surroundings:
         hard = self.hard[j]
         weight = np.where(hard, COVER, THIN)[:, None]
         price = np.where(distance < self.gap - SLACK, weight, 0.0)
-        crowd = np.where(hard, CROWDED / ROOM, CROWDED / ROOM / 2)[:, None]
-        price += crowd * within(ROOM - distance, 0.0, ROOM)
         belongs = self._belongs(wanted, i, j)
-        r = ((self.kind[j] == FINE) & ~(belongs & (wanted.a != wanted.b)[i])).nonzero()[0]
+        # what ends in its own node crowds no letter: away from it the letter would only be far from the node
+        crowd = (np.where(hard, 1.0, 0.5) * ~(belongs & (wanted.a == wanted.b)[i]) * CROWDED / ROOM)[:, None]
+        price += crowd * within(ROOM - distance, 0.0, ROOM)
+        steep = abs(self.things.normal[j].real) > LEVEL
+        r = ((self.kind[j] == FINE) & ~(belongs & ((wanted.a != wanted.b)[i] | steep))).nonzero()[0]
         price[r] += CLOSE * within(BARE - distance[r], 0.0, BARE)
         r = (self.rival[j] & ~belongs).nonzero()[0]
         lead, same = distance[r] - own[i[r]], self._same_kind(wanted, i[r], j[r])

@@ -137,6 +137,22 @@ def test_a_label_stands_where_it_is_preferred_beside_a_point_and_a_vector(side: 
             assert place([vector], Obstacles(drawn)).corners["V"] + 3 + 2j == pytest.approx(25 + off * side)
 
 
+@pytest.mark.parametrize("turn", range(0, 360, 15))
+def test_a_letter_stays_beside_its_node_however_many_lines_end_there(turn: int) -> None:
+    """Lines of its own drive no letter away; a level one keeps it off, under which it would look barred."""
+    node = 20 + 20j
+    ends = [node + turned(60.0, turn + degrees) for degrees in (0, 25, 50)]
+    thin = [(node - turned(10.0, turn + degrees), node) for degrees in (0, 50)]
+    request = Request("b", 3.0, 4.0, node, 1.0)
+
+    labels = stand_clear([request], Obstacles([(node, end) for end in ends], thin))
+
+    box = boxes_of([request], labels)[0]
+    level = [line for line in thin if abs((line[1] - line[0]).imag) < 2.0]
+    assert box.distance(anchored(node)) < (4.0 if level else 2.5)
+    assert all(box.distance(anchored(line)) > 2.0 for line in level)
+
+
 def test_letters_at_one_point_and_of_zero_vectors_stand_side_by_side_without_leaders() -> None:
     four = [Request(name, 4, 4, 5 + 5j) for name in ("b", "s2", "c", "d")]
     zero = [Request("V_BA", 8, 5, (3j, 3j)), Request("b", 3, 4, 3j)]
