@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 
 from ...plans.board import POSITION, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
@@ -33,6 +34,8 @@ PARTS = {
 # moments on the lever of one group that one page holds; times as long plans are at least on one page where groups or
 # moments are more: else two pages have larger plans, and room for their letters
 FEW, CROWDED = 8, 1.8
+# mm, how near points of a plan crowd; parts of its goal by which each pair of them, and all, make it larger
+CLOSE_BY, CROWD, LARGER = 15.0, 0.1, 1.5
 HUNG = 17.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 PROPORTION = 3.2  # times as large as the velocity plan that a task fixes its lever and its forces may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
@@ -53,6 +56,7 @@ RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing st
 SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
 ON_AXIS = 0.3  # tangent of the angle at which a pivot is seen from a slider that runs on its axis to there
 STROKE = 1.3  # of the crank, how far a slider may run on both sides
+SAME = 0.05  # of the distance within which points crowd: nearer ones share their letters
 POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is a point, and is not drawn
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
@@ -197,14 +201,21 @@ def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
     symbol, forces = solved.scale_of_plan[plan], role(plan).kind == FORCES
     around, least = (POLYGON, WIDER) if forces else (MOTION, HEADING)
     alone = forces and plan not in {f"{FORCES}_{group.name}" for group in solved.structure.groups}
-    goal = ALONE if alone else GOALS[role(symbol).of]
-    yield Extent(symbol, _around(marks_on(solved, plan)), around, least, goal)
+    goal, marks = ALONE if alone else GOALS[role(symbol).of], marks_on(solved, plan)
+    if not forces:
+        goal *= min(LARGER, 1.0 + CROWD * _close_by(marks, CLOSE_BY * _largest(solved, symbol) / goal))
+    yield Extent(symbol, _around(marks), around, least, goal)
     shown = {name for name in solved.quantities if solved.shown_on.get(name) == plan}
     hung = {step.operands[1] for step in solved.program.on(plan) if step.verb == "chain"}  # those of another plan, too
     sizes = [solved.size(name) for name in shown | hung]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
     if forces and points > 1:
         yield Extent("", (0.0, 0.0), (min(points, TOGETHER) * INSET[0], INSET[1]))
+
+
+def _close_by(places: Sequence[complex], distance: float) -> int:
+    """Return how many pairs of places are nearer to one another than a distance, but not in one place."""
+    return sum(SAME * distance < abs(a - b) < distance for a, b in combinations(places, 2))
 
 
 def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> float:

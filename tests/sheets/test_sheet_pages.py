@@ -261,6 +261,22 @@ def test_plans_are_drawn_larger_where_pages_have_room() -> None:
 
 
 @pytest.mark.parametrize(
+    ("task", "variant", "symbol"),
+    [
+        ("scheme-14-jaw-crusher", "6", "mu_a"),
+        ("scheme-12-shaking-conveyor", "8", "mu_a"),
+        ("scheme-15-lever-shears", "2", "mu_V"),
+        ("scheme-16-hay-baler", "6", "mu_V"),
+    ],
+)
+def test_a_plan_whose_points_crowd_is_larger_than_others(task: str, variant: str, symbol: str) -> None:
+    solution = kulman.solve(task, variant)
+    longest = max(q.mm or 0.0 for q in solution.quantities.values() if q.scale == symbol and q.kind == "vector")
+
+    assert longest > 190.0
+
+
+@pytest.mark.parametrize(
     ("task", "variant"),
     [("scheme-14-jaw-crusher", "2"), ("scheme-15-lever-shears", "3"), ("scheme-20-press-automaton", "2")],
 )
