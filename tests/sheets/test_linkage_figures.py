@@ -21,10 +21,10 @@ from kulman.drawing.formats import STYLES, Style
 from kulman.drawing.linkages.figures.cycle import _Band
 from kulman.drawing.linkages.figures.group import STEP, Sketch, _Arm, _staggered
 from kulman.drawing.linkages.figures.links import Skeleton, _Block
-from kulman.drawing.linkages.figures.plan import letter_marks
+from kulman.drawing.linkages.figures.plan import LEAST_TIMES, letter_marks, own_part, told_apart
 from kulman.drawing.linkages.figures.scheme import CLEAR, _crowd, _points
 from kulman.drawing.page import extent
-from kulman.drawing.shapes import Line, Pen, Text
+from kulman.drawing.shapes import Line, Pen, Text, Vector
 from kulman.drawing.text import lay_out
 from kulman.drawing.view import Canvas
 from kulman.plans.linkages.mechanism import Revolute
@@ -563,6 +563,37 @@ def test_small_forces_stand_in_insets_and_can_be_measured_there(case: Linkage) -
     assert numerals
 
 
+def test_points_of_a_detail_have_their_letters_there_and_but_for_the_pole_not_again_on_the_plan() -> None:
+    plans = [view for view in Linkage("scheme-14-jaw-crusher", "0").sheet.views if view.name.startswith("forces_")]
+    detailed = [plan for plan in plans if plan.insets]
+
+    assert detailed
+    for plan in detailed:
+        marks, inside = ({t.string for t in view.of("label") if len(t.of) == 1} for view in (plan, plan.insets[0]))
+        assert marks & inside == {"H"}
+        assert len(inside) > 3
+
+
+def _vector(tail: complex, tip: complex) -> Vector:
+    return Vector(tail, tip, "R", abs(tip - tail), "N", 1.0)
+
+
+@pytest.mark.parametrize("turn", [1.0, 1j, cmath.rect(1.0, 2.5)], ids=str)
+def test_the_letter_of_a_vector_stands_where_no_other_on_its_line_is_meant(turn: complex) -> None:
+    to, fro, again = drawn = [*told_apart(_vector(a * turn, b * turn) for a, b in ((0j, 90), (90 + 0j, 0), (0j, 90)))]
+    beside = [[(end / turn).real for end in own_part(vector, drawn, 10.0)] for vector in drawn]
+
+    # of two to and fro the second has its head in the middle; a third that goes with the first shares its head
+    assert [to.head, fro.head, again.head] == ["tip", "middle", "tip"]
+    assert all(abs(0.5 * sum(part) - head) < 20.0 for part, head in zip(beside, (90.0, 45.0, 90.0), strict=True))
+
+    first, second, whole = (_vector(0j, length * turn) for length in (30.0, 55.0, 100.0))
+    aside, hardly = _vector(40 * turn, (90 + 4j) * turn), _vector(0j, 95 * turn)
+    ends = [own_part(vector, (first, second, whole, aside), 10.0) for vector in (first, second, whole)]
+    assert [[round((end / turn).real) for end in part] for part in ends] == [[0, 30], [30, 55], [55, 100]]
+    assert own_part(whole, (hardly,), 10.0) == (whole.tail, whole.tip)
+
+
 @pytest.mark.parametrize("task", some(["scheme-11-slotter", "scheme-13-toggle-press", "scheme-16-hay-baler"], 1))
 def test_arc_of_phi_keeps_off_supports_and_other_links(task: str) -> None:
     view = Linkage(task, "1", format="A1").sheet["position"]
@@ -930,7 +961,7 @@ def test_lines_that_find_a_joint_run_past_it(task: str) -> None:
     ("task", "variant", "enlarged"),
     some(
         [
-            ("scheme-14-jaw-crusher", "3", {"acceleration"}),
+            ("scheme-15-lever-shears", "6", {"acceleration"}),
             ("nau-slider-crank", "3", set()),
             ("scheme-16-hay-baler", "5", {"velocity"}),
             ("scheme-16-hay-baler", "2", {"forces_4"}),
@@ -962,6 +993,7 @@ def test_each_point_of_a_plan_has_its_letter_there_or_in_a_detail(task: str, var
             f"Виносний елемент {numeral}" for numeral in numerals[-1:] if plan.insets
         ]
         for vector in (vector for inset in plan.insets for vector in inset.vectors):
+            assert vector.mu * LEAST_TIMES <= plan.vector(vector.quantity).mu * 1.0001
             assert abs(vector.span) * vector.mu == pytest.approx(vector.value, abs=NEAR * vector.mu)
             assert abs(vector.span) < NEAR or parallel(vector.span, plan.vector(vector.quantity).span, 0.01)
     assert len({*numerals}) == len(numerals)

@@ -26,8 +26,9 @@ from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
 
 READABLE = 1.4  # arrowheads: the least length of a vector in an inset
-MOST_TIMES = 10.0  # the largest enlargement of points that crowd
-TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
+# enlargements, those of points that crowd up to the last; what is less than three times as large looks the same
+LEAST_TIMES, MOST_TIMES = 3.0, 10.0
+TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e >= LEAST_TIMES)
 WIDEST, NARROWEST = 26.0, 45.0  # the largest side of what an inset shows, in heights of its letters; mm, the least
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
 OFF = 1.0  # mm between its letters and its frame
@@ -38,6 +39,7 @@ EMPTY: Mapping[str, str] = {}
 ENLARGED = "enlarged"  # the stage of insets: all that a figure has is there before them
 PAST = 10.0  # mm by which a construction line runs past the point that it finds
 LONGER = 5.0  # mm by which its name may reach past the end of such a line
+LAST = 0.6  # of a vector to and fro: from there on its letter stands beside its head
 FEW = 1  # forces too short to be read that a plan shows as points, said in words
 ConstructionLine = tuple[complex, complex, complex, str]  # whence, the point that it finds, its end, what is said of it
 
@@ -99,9 +101,39 @@ def told_apart(vectors: Iterable[Vector]) -> Iterator[Vector]:
     """
     seen = set[tuple[complex, ...]]()
     for vector in vectors:
-        ends = tuple(complex(round(at.real, 3), round(at.imag, 3)) for at in (vector.tail, vector.tip))
-        yield replace(vector, head="middle") if ends[::-1] in seen else vector
+        ends = _places(vector.tail, vector.tip)
+        yield replace(vector, head="middle") if ends[::-1] in seen and ends not in seen else vector
         seen.add(ends)
+
+
+def _places(*ends: complex) -> tuple[complex, ...]:
+    """Return places as they are compared: two marks in one place may differ by rounding."""
+    return tuple(complex(round(at.real, 3), round(at.imag, 3)) for at in ends)
+
+
+def own_part(vector: Vector, others: Iterable[Vector], least: float) -> tuple[complex, complex]:
+    """Return the part of a vector beside which its letter stands: all of it, where no other runs along it.
+
+    It is where it goes on past shorter ones, if only by the `least` length, mm; of two to and fro that about its head.
+    """
+    along, opposed = vector.tip - vector.tail, False
+    covered, free, spans = 0.0, list[tuple[float, float]](), [(1.0, 1.0)]
+    for other in others:
+        feet = [(end - vector.tail) / along for end in (other.tail, other.tip)]
+        if max(abs(foot.imag) for foot in feet) * abs(along) < NEAR:
+            opposed |= abs(other.tail - vector.tip) + abs(other.tip - vector.tail) < NEAR
+            if length_of(other) < length_of(vector) - NEAR:
+                low, high = sorted(min(1.0, max(0.0, foot.real)) for foot in feet)
+                spans.append((low, high))
+    for low, high in sorted(spans):
+        free.append((covered, low))
+        covered = max(covered, high)
+    low, high = max(free, key=lambda part: part[1] - part[0])
+    if opposed:
+        low, high = (LAST, 1.0) if vector.head == "tip" else (0.5 * LAST, 1.0 - 0.5 * LAST)
+    elif (high - low) * abs(along) < least:
+        low, high = 0.0, 1.0
+    return vector.tail + low * along, vector.tail + high * along
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +209,10 @@ class Plan:
                 ends = [at[other] for _, other in away]
                 near = [end for k, end in enumerate(ends) if max(size_of(ends[: k + 1])) <= widest]
                 shown = max(shown, near, key=len)
+            for edge in self.edges():  # short vectors whole, as they are near their poles
+                tail, tip = at[edge.tail], at[edge.tip]
+                if tip in shown and max(size_of([*shown, tail])) <= widest / 2:
+                    shown.append(tail)
             window = Window.about(shown, times, NARROWEST)
             view, wider = _roomy(self, window, self.plan, UNNUMBERED[0])
             bad = len(_unlettered(self.scene, marks, view.shapes)) + len(_outside(view, wider))
@@ -192,6 +228,14 @@ class Plan:
             long = length_of(vector) * window.times >= self.scene.style.arrow
             if long and _in_inset(self.scene, [window], (vector.tail, vector.tip)):
                 yield vector.quantity
+
+
+def _lettered_in(plan: Plan, windows: Iterable[Window], marks: Iterable[str]) -> Iterator[str]:
+    """Go through the marks that have letters in insets."""
+    for window in windows:
+        view, wider = _roomy(plan, window, plan.plan, UNNUMBERED[0])
+        shown = [mark for mark in marks if wider.shows(plan.scene.mm(mark))]
+        yield from {*shown}.difference(_unlettered(plan.scene, shown, view.shapes))
 
 
 def _unlettered(scene: Scene, marks: Iterable[str], shapes: Iterable[Shape]) -> list[str]:
@@ -404,7 +448,8 @@ def letter_marks(
         canvas.part(scene.last(stages))
         texts = dict.fromkeys(said.get(mark, "") for mark in marks)
         last, text = next(iter(texts)) if len(texts) == 1 else "", ", ".join(letters[m] for m in marks)
-        canvas.label(text, place, prefer=place - middle, priority=1, last=last, first=first)
+        clear = 1.0 + (canvas.style.node if any(mark in poles for mark in marks) else 0.0)
+        canvas.label(text, place, prefer=place - middle, clear=clear, priority=1, last=last, first=first)
     for mark in letters:
         if mark not in poles:
             canvas.part(mark, Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
@@ -447,8 +492,9 @@ def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[s
     marks = *poles, *(edge.tip for edge in vectors if edge.tip in ends)
     said = {edge.tip: _ends_of(scene, edge, vectors) for edge in reversed(left)}
     places = {m: scene.mm(m) for m in marks}
-    said |= {m: ELSEWHERE for m, at in places.items() if any(w.shows(at) for w in short_ones)}
-    letter_marks(canvas, scene, {m: words.mark(m) * (m not in crowd) for m in marks}, places, poles, said)
+    # the plan letters no point again that its inset does, but for the pole
+    inset = {*crowd, *_lettered_in(forces, short_ones, [m for m in marks if m not in poles])}
+    letter_marks(canvas, scene, {m: words.mark(m) * (m not in inset) for m in marks}, places, poles, said)
     notes = [*said_flat(scene, plan)]
     read = {quantity for window in short_ones for quantity in forces.read_in(window)}
     short = [v for v in map(scene.vector, dict.fromkeys(vectors)) if length_of(v) < SHORT and v.quantity not in read]
@@ -473,8 +519,8 @@ def _vectors(
     within: Collection[tuple[complex, complex]],
 ) -> None:
     """Draw vectors with their names; an inset has those `within` it, where these have no room."""
-    named = set[frozenset[complex]]()
-    for edge, vector in zip(vectors, told_apart(map(scene.vector, vectors)), strict=True):
+    named, drawn = set[frozenset[complex]](), [*told_apart(map(scene.vector, vectors))]
+    for edge, vector in zip(vectors, drawn, strict=True):
         canvas.part(scene.reading.drawn_with(edge))
         canvas.add(headed(vector, SHORT))  # else an arrowhead would be longer than the vector
         names = list(dict.fromkeys(other.name for other in vectors if (other.tail, other.tip) == (edge.tail, edge.tip)))
@@ -482,15 +528,15 @@ def _vectors(
         if length_of(vector) < SHORT or edge not in lettered or edge.name != names[0]:
             continue
         across = 1j * (vector.tip - vector.tail)
-        ends = frozenset(complex(round(at.real, 3), round(at.imag, 3)) for at in (vector.tail, vector.tip))
+        ends = _places(vector.tail, vector.tip)
         # the first of two vectors on one line has its letter above it or to the right
-        side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
-        named.add(ends)
+        side = (-across if (across / (0.3 + 1j)).real > 0 else across) if frozenset(ends) in named else 0j
+        named.add(frozenset(ends))
         text = " = ".join(map(scene.letter, names))
         spare = ELSEWHERE if scene.ends(edge) in within else _ends_of(scene, edge, vectors)
         bare = f"{spare} = {scene.length(length_of(vector))}"
-        ends_at = vector.tail, vector.tip
-        canvas.label(text, ends_at, prefer=side, clear=0.9, strict=True, spare=spare, bare=bare)
+        at = own_part(vector, drawn, 2.0 * scene.style.label)
+        canvas.label(text, at, prefer=side, clear=0.9, strict=True, spare=spare, bare=bare)
 
 
 def _ends_of(scene: Scene, edge: Edge, vectors: Sequence[Edge]) -> str:
