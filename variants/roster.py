@@ -201,8 +201,7 @@ def _same_person(one: str, other: str) -> bool:
     >>> _same_person("Мар яненко Анна Марія 6 handout", "Мар'яненко Анна-Марія")
     True
     """
-    pairs = (one, other), (other, one)
-    words = (re.split(r"[\s.]+", _compound(name, of)) for name, of in pairs)
+    words = (re.split(r"[\s.]+", _compound(name, of)) for name, of in ((one, other), (other, one)))
     short, whole = sorted(([_folded(word) for word in some if word] for some in words), key=len)
     if len(short) < 2:
         return False

@@ -18,6 +18,7 @@ from ..board import POSITION
 from ..mistakes.book import Book
 from ..names import LEVER, role
 from .answers import Answer
+from .elsewhere import elsewhere
 from .key import Key
 from .laying import FREE, SAME_MU, SHORT, USUAL, Fit, Laying
 from .lines import Drawn, Lines, lines_of
@@ -294,10 +295,25 @@ class _Search:
             ]
             if found:
                 self._take(fits, max(found, key=lambda fit: fit.worth))
+        self._lead_on(fits, turn)
         worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
         if all(fit.shape.flat for fit in fits.values()) and not all(right.flat for right in self.plans.values()):
             fits = {}  # single lines are on any drawing
         return fits, worth, self.common
+
+    def _lead_on(self, fits: dict[str, Fit], turn: float) -> None:
+        """Take plans that no known mistake explains, and what is not yet found of right ones, with points elsewhere."""
+        for plan, right in self.plans.items():
+            fit = fits.get(plan)
+            if right.flat or (fit is not None and (not fit.shape.right or 1.0 - fit.quality <= ALL)):
+                continue
+            if fit is not None:
+                self.laying.leave(fit)
+            led = elsewhere(self.laying, right, turn)
+            if led is not None and led.lines > max(ENOUGH * right.weights.sum(), fit.lines if fit else 0.0):
+                fit = fit if led.against or not self._evident(led, expected=False) else led
+            if fit is not None:
+                self._take(fits, fit)
 
     def _shapes(self, plan: str) -> tuple[Shape, ...]:
         """Return all ways in which a plan may be drawn."""

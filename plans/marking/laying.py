@@ -169,6 +169,10 @@ class Laying:
         """Remember the lines of a plan."""
         self.used.update(map(self._hubs, fit.pairs))
 
+    def leave(self, fit: Fit) -> None:
+        """Forget the lines of a plan, of which another fit is looked for."""
+        self.used.difference_update(map(self._hubs, fit.pairs))
+
     def _hubs(self, pair: tuple[int, int]) -> tuple[int, int]:
         """Return what stands for a line and all those that are nearly the same."""
         one, other = sorted(int(self.lines.hubs[node]) for node in pair)
@@ -246,7 +250,7 @@ class Laying:
             if laid.parts[at] >= part - UNSEEN:
                 looks.setdefault(np.where(nodes < 0, nodes, self.lines.hubs[nodes]).tobytes(), at)
         some = [*looks.values()]
-        fits = self._settled(shape, laid.origins[some], laid.factors[some])
+        fits = self.settled(shape, laid.origins[some], laid.factors[some])
         return max(fits, key=lambda fit: fit.worth, default=None)
 
     def _ways(
@@ -362,13 +366,13 @@ class Laying:
             return np.zeros(len(per_unit))
         return USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
 
-    def _settled(self, shape: Shape, origins: Complex, factors: Complex) -> Iterator[Fit]:
+    def settled(self, shape: Shape, origins: Complex, factors: Complex) -> Iterator[Fit]:
         """Go through fits, moved to where they fit best: the squares of what their points miss are least."""
         squares, sizes = factors / np.abs(factors), np.abs(shape.spans)
         tails, tips = shape.tails[shape.lines], shape.tips[shape.lines]
         ends_of = (tails[:, None] == np.arange(len(shape.marks))) | (tips[:, None] == np.arange(len(shape.marks)))
         for _ in range(3):
-            nodes, usual = self._nodes(origins[:, None] + factors[:, None] * shape.places), np.abs(factors)
+            nodes, usual = self.nodes_of(origins[:, None] + factors[:, None] * shape.places), np.abs(factors)
             there = self.lines.joined(nodes[:, tails], nodes[:, tips])
             ends = (there[:, :, None] & ends_of).any(axis=1)
             count = np.maximum(ends.sum(axis=1, keepdims=True), 1)
@@ -472,7 +476,7 @@ class Laying:
         ends = self.lines.nodes[np.array(fit.pairs, np.intp).reshape(-1, 2)]
         return expected and self.lines.stand_free(*ends.T)
 
-    def _nodes(self, places: Complex) -> Indices:
+    def nodes_of(self, places: Complex) -> Indices:
         """Return the nodes of marks: near enough, or -1."""
         nodes = self.lines.near(places)
         apart = np.abs(self.lines.nodes[nodes] - places)

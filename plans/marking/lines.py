@@ -91,8 +91,8 @@ def side_by_side(pages: Iterable[Drawn]) -> Drawn:
         by = whole.ends.real.max() - page.ends.real.min() + APART
         letters = (replace(letter, place=letter.place + by) for letter in page.letters)
         arrows = np.append(whole.arrows, page.arrows + len(whole.tails))
-        ends = (np.append(own, other + by) for own, other in ((whole.tails, page.tails), (whole.tips, page.tips)))
-        whole = Drawn(*ends, (*whole.letters, *letters), arrows, whole.by_hand)
+        tails, tips = np.append(whole.tails, page.tails + by), np.append(whole.tips, page.tips + by)
+        whole = Drawn(tails, tips, (*whole.letters, *letters), arrows, whole.by_hand)
     return whole
 
 
@@ -146,6 +146,11 @@ class Lines:
         wanted = one * len(self.nodes) + other
         both[both] = codes[np.minimum(np.searchsorted(codes, wanted), len(codes) - 1)] == wanted
         return both
+
+    def joined_to(self, node: int) -> Indices:
+        """Return the nodes that a line joins to one."""
+        begin, end = np.searchsorted(self.codes, [node * len(self.nodes), (node + 1) * len(self.nodes)])
+        return self.codes[begin:end] % len(self.nodes)
 
     @cached_property
     def outward(self) -> NDArray[np.uint32]:

@@ -16,6 +16,7 @@ from kulman.plans.marking.drawn import DIRECTED, MEASURED, Recognised, _laying, 
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.verdicts import mark
+from kulman.plans.marking.ways import edges_of
 from kulman.plans.mistakes.book import Book, Signature
 from kulman.plans.mistakes.explaining import explain
 from kulman.tests.support.cases import some
@@ -108,6 +109,31 @@ def test_an_arrowhead_tells_the_sense_of_a_line_that_it_is_turned_by_10_degrees_
     senses = _Search(sheet.key, None, _laying(pointed, sheet.key, {}))._fits()["velocity"].senses
 
     assert {*senses} == {sense}
+
+
+@pytest.mark.parametrize(("task", "plan", "mark"), some([
+    ("nau-slider-crank", "velocity", "velocity.B"), ("nau-slider-crank", "acceleration", "acceleration.B"),
+    ("madi-four-bar", "velocity", "velocity.C"), ("madi-four-bar", "forces_23", "forces_23.1"),
+    ("scheme-09-shaper", "velocity", "velocity.A3"), ("scheme-04-v-engine", "forces_23", "forces_23.1"),
+], 0, 3))  # fmt: skip
+@pytest.mark.parametrize("by", [4.0 + 3.0j, -8.0 + 6.0j])
+def test_all_of_a_plan_is_read_where_one_of_its_points_is_elsewhere(
+    task: str, plan: str, mark: str, by: complex
+) -> None:
+    sheet = bare(task)
+    mu, edges = sheet.key.paper.mus[plan], edges_of(sheet.key.paper.program, plan)
+    at = {end: complex(sheet.key.values[end]) / mu + by * (end == mark) for _, *ends in edges for end in ends}
+    around = {name: (at[tail], at[tip]) for name, tail, tip in edges if abs(at[tip] - at[tail]) > READABLE}
+    lines = np.array([*around.values(), (-300.0 - 350.0j, 320.0 - 350.0j), (-300.0 - 350.0j, -300.0 + 350.0j)])
+
+    found = recognise(Drawn(lines[:, 0], lines[:, 1]), sheet.key, sheet.book, {plan: mu}).vectors
+
+    moved = {name for name, tail, tip in edges if mark in (tail, tip)} & {*around}
+    read = {name for name in around if name in found and found[name].plan == plan}
+    assert moved <= read
+    assert len(read) >= 0.6 * len(around)
+    ends = ((found[name].tail, found[name].tip, *around[name]) for name in read)
+    assert max(max(abs(a - tail), abs(b - tip)) for a, b, tail, tip in ends) <= NEAR
 
 
 def test_nothing_is_found_where_nothing_is_drawn() -> None:
