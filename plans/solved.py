@@ -99,6 +99,11 @@ class Solved:
         """Names of the directions of the sheet's edges, along which a drafting machine draws without an error."""
         return ()
 
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """Marks at which curves that are drawn bit by bit must come back to their axis, which is level."""
+        return ()
+
     def error(self) -> PositionError | None:
         """Return why there is no plan, or None."""
         return None if self.trouble is None else self.reason(self.trouble)

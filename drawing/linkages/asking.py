@@ -282,8 +282,18 @@ def _of_point(mechanism: Mechanism, words: Words, said: Name) -> str:
     return words[key].format(point=of, about=relative)
 
 
+def _points(mechanism: Mechanism) -> set[str]:
+    return {point for link in mechanism.links for point in link.points} | {*mechanism.frame_points}
+
+
+def on_scheme(mechanism: Mechanism, name: str) -> bool:
+    """Whether the points of a quantity stand on the scheme: a triad's special point stands on no link of it."""
+    points = _points(mechanism)
+    told = (letter for letter in (role(name).of, role(name).about) if role(name).kind in ("V", "a") and letter)
+    return all(letter in points or letter.rstrip("0123456789") in points for letter in told)
+
+
 def _point(mechanism: Mechanism, words: Words, letter: str) -> str:
     """Return the letter of a point; of one that only coincides with another, on which link it is."""
-    points = {point for link in mechanism.links for point in link.points} | {*mechanism.frame_points}
-    plain = not letter or letter in points or not letter[-1].isdigit()
+    plain = not letter or letter in _points(mechanism) or not letter[-1].isdigit()
     return words.mark(letter) if plain else words["sought.on_link"].format(point=words.mark(letter), link=letter[-1])

@@ -197,6 +197,14 @@ class SolvedCam(Solved):
         return construction.DIAGRAMS
 
     @property
+    def ends(self) -> tuple[str, ...]:
+        """Where the diagrams close: the velocity after each phase unless it is given, the travel after the fall."""
+        division, given = self.layout.division, self.layout.given
+        speeds = (division.top, division.last) if given == construction.ACCELERATION else ()
+        marks = (*(f"{construction.VELOCITY}.{line}" for line in speeds), f"{construction.TRAVEL}.{division.last}")
+        return tuple(mark for mark in marks if mark in self.program.by_name)
+
+    @property
     def draws_profiles(self) -> bool:
         """Whether the profiles are constructed, not only the sizes."""
         return any(plan in (construction.PROFILE, construction.PLATE_PROFILE) for plan in self.program.plans)
@@ -428,8 +436,10 @@ def as_drawn(solved: SolvedCam) -> SolvedCam:
         drawn = step.but(name=names.get(step.name, step.name), operands=operands)
         if drawn.name == "s_0" and "e_tangents" in named:  # it goes with r_0 and e
             drawn = drawn.but(law="other_leg", operands=("r_0", "e"))
-        elif drawn.name == "rho_min" and numbers:  # the curvature is that of the drawn cam
-            drawn = drawn.but(law=construction.SHARPEST, operands=("h", "e", "s_0", *numbers))
+        elif drawn.name == "rho_min" and numbers:  # the curvature is that of the drawn cam, with its travel
+            travel = f"_s{solved.layout.division.top}_drawn"
+            stroke = travel if travel in made else "h"
+            drawn = drawn.but(law=construction.SHARPEST, operands=(stroke, "e", "s_0", *numbers))
         steps.append(drawn)
     program, numbers = Program(tuple(_in_order(steps))), {**numbers, **solved.givens}
     board = run(program, numbers)

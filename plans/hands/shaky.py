@@ -140,6 +140,7 @@ class Paper:
     mus: Mapping[str, Any]  # scale factors by plan, value in SI per mm
     edges: Collection[str] = ()  # names of the directions along which a drafting machine draws without error
     unscaled: Collection[str] = ()  # plans in millimetres of paper themselves: what is measured there has no factor
+    ends: Collection[str] = ()  # marks at which curves must come back to their axis, else they are drawn again
 
 
 def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
@@ -150,7 +151,7 @@ def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
 
 def drawing_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
     """Return the drawing of what is solved with scale factors by plan, in SI per mm."""
-    return Paper(solved.program, solved.givens, solved.worth(mus), solved.edges, solved.on_paper)
+    return Paper(solved.program, solved.givens, solved.worth(mus), solved.edges, solved.on_paper, solved.ends)
 
 
 class ShakyBoard(ArrayBoard):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -117,7 +117,15 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> 
     True
     """
     exact = run(paper.program, paper.givens).values
-    return _Drawn(paper, exact, draw(paper, hand, random, drawings))
+    first_order = _sensitivities(paper, hand, paper.ends, whole=True) if paper.ends else None
+    if first_order is None or not first_order.passes:
+        return _Drawn(paper, exact, draw(paper, hand, random, drawings))
+    errors = first_order.closing(random, drawings)
+    board = draw(paper, hand, _InOrder(iter(errors)), drawings)
+    # as near to the axis as to first order
+    beyond = first_order.missed(board.values) - first_order.ends @ errors
+    errors -= np.linalg.pinv(first_order.ends) @ beyond
+    return _Drawn(paper, exact, draw(paper, hand, _InOrder(iter(errors)), drawings))
 
 
 STEP = 1e-3  # standard deviations; the error of a central difference is its square
@@ -138,16 +146,30 @@ class _OneByOne:
 
 
 @dataclass(frozen=True, slots=True)
+class _InOrder:
+    """Errors that are known, one step after the other."""
+
+    errors: Iterator[Array]
+
+    def standard_normal(self, size: Shape, /) -> Array:
+        return next(self.errors)
+
+
+@dataclass(frozen=True, slots=True)
 class _Sensitivities:
     """How far each quantity misses for each error of one standard deviation.
 
     `steps` are those at which the errors are made; `misses` arrays of shape (errors,), SI, complex for vectors and
-    points.
+    points. `ends` say how far curves miss the axis to which they must come back, shape (ends, errors), beside the
+    standard deviation that `passes`, SI: a drawing whose curves do not close is drawn again, so that its errors hang
+    together.
     """
 
     steps: tuple[str, ...]
     misses: Mapping[str, Array]
     exact: Mapping[str, Any]
+    ends: Array
+    passes: Mapping[str, float]
 
     def parts(self, name: str) -> dict[str, float]:
         """Return the steps at which a quantity's error is made, with their parts of its variance, largest first.
@@ -169,27 +191,56 @@ class _Sensitivities:
         misses, exact = self.misses[name], self.exact[name]
         if isinstance(exact, complex) and exact:
             misses = dot(misses, exact * (1.0 / abs(exact)))
-        return float(np.sqrt(np.sum(np.abs(misses) ** 2)))
+        square, open = np.sum(np.abs(misses) ** 2), self.ends @ misses
+        return float(np.sqrt(max(square - np.sum(open * self._weighed(open)), 0.0)))
+
+    def missed(self, values: Mapping[str, Any]) -> Array:
+        """Return how far curves miss their axis on drawings, as `ends` has it."""
+        return np.array([np.imag(values[name] - self.exact[name]) / passes for name, passes in self.passes.items()])
+
+    def closing(self, random: Generator, drawings: int) -> Array:
+        """Return errors of drawings that close: any errors, less what brings their curves back to the axis."""
+        errors = random.standard_normal((len(self.steps), drawings))
+        open = self.ends @ errors + random.standard_normal((len(self.ends), drawings))
+        closed: Array = errors - self.ends.T @ self._weighed(open)
+        return closed
+
+    def _weighed(self, open: Array) -> Array:
+        """Return how much of each end must be taken back where curves miss their axis so."""
+        found: Array = np.linalg.solve(np.eye(len(self.ends)) + self.ends @ self.ends.T, open)
+        return found
 
 
-def _sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> _Sensitivities:
+def _sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = (), whole: bool = False) -> _Sensitivities:
     """Draw a construction once for each error of the hand alone.
 
-    `names` are the quantities wanted, all when empty. Steps that they do not need are not done.
+    `names` are the quantities wanted, all when empty. Steps that they do not need are only done where the `whole` is.
     """
-    wanted = tuple(names) or tuple(step.name for step in results(paper.program))
-    paper = replace(paper, program=paper.program.needed_for(wanted))
+    wanted = (*(tuple(names) or (step.name for step in results(paper.program))), *paper.ends)
+    if not whole:
+        paper = replace(paper, program=paper.program.needed_for(wanted))
     steps = tuple(draw(paper, hand, _OneByOne(), 1).erred)
     board = draw(paper, hand, _OneByOne(), (2, len(steps)))
     exact, misses = run(paper.program, paper.givens).values, dict[str, Array]()
+    apart = {step.name: step.operands for step in paper.program if step.verb == "distance" and steps}
+    sided = {
+        name: np.where(np.imag(board.values[end] - board.values[start]) < 0.0, -1.0, 1.0)
+        for name, (start, end) in apart.items()
+    }
     for name in wanted:
         if np.isinf(exact[name]):  # of a rigid beam
             misses[name] = np.zeros(len(steps))
             continue
         forth, back = np.broadcast_to(board.values[name], (2, len(steps)))
         slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact[name]) * (1.0 / STEP)
-        misses[name] = np.where(kink > abs(slope), kink, slope)  # a distance that should be none grows with either
-    return _Sensitivities(steps, misses, exact)
+        # a distance that should be none grows with either, to one side of its first mark or the other
+        misses[name] = np.where(
+            kink > abs(slope), kink * np.broadcast_to(sided.get(name, 1.0), (2, len(steps)))[0], slope
+        )
+    millimetres = MARKS_IN / MOST * max(hand.point, hand.reading)
+    passes = {name: millimetres * float(paper.mus[role(name).plan]) for name in paper.ends if millimetres}
+    ends = [misses[name].imag / most for name, most in passes.items()]
+    return _Sensitivities(steps, misses, exact, np.reshape(ends, (len(ends), len(steps))), passes)
 
 
 MOST = 2.0  # standard deviations that nearly all honest hands keep

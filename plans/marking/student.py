@@ -238,10 +238,11 @@ class Allowance:
         """Return by how much an answer may miss a value, SI.
 
         One that is `right` does not follow from the student's own numbers: who has gone on with it after a wrong one
-        has measured it.
+        has measured it. Nor does one behind which nothing is said, where it is known how errors of drawing add up.
         """
         step = self.calculation(name)
-        if step is None or (right and any(map(self.faulty, self.inputs(step)))):
+        added_up = step is not None and name in self.key.limits and not self.inputs(step)
+        if step is None or added_up or (right and any(map(self.faulty, self.inputs(step)))):
             return self.by_hand(name, value)
         answer = self.answers[name]
         coarsest = COARSEST * abs(value)

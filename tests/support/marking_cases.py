@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from kulman.plans.hands.shaky import Paper, draw, paper_of, preset
+from kulman.plans.hands.shaky import Paper, paper_of, preset
+from kulman.plans.hands.spread import drawn
 from kulman.plans.marking.answers import Answer, Said, miss
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.mistakes.book import Book, Signature, book
@@ -67,8 +68,8 @@ def right_answers(of: Key, directions: bool = True) -> list[Answer]:
 def students(of: Key, drawing: Paper, count: int, seed: int, directions: bool = True) -> Iterator[list[Answer]]:
     """Go through the answers of students who have drawn a sheet; what cannot be drawn is left out."""
     plans = {plan: drawing.mus.get(plan, 0.0) for plan in drawing.program.plans}
-    board = draw(replace(drawing, mus={**drawing.mus, **plans}), preset(HAND).hand, np.random.default_rng(seed), count)
-    read = {name: np.broadcast_to(board.values[name], (count,)).tolist() for name in of.questions}
+    board = drawn(replace(drawing, mus={**drawing.mus, **plans}), preset(HAND).hand, np.random.default_rng(seed), count)
+    read = {name: board[name].tolist() for name in of.questions}
     for i in range(count):
         yield [answer(name, row[i], directions) for name, row in read.items() if row[i] == row[i]]
 

@@ -293,10 +293,14 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return ((symbol, called, with_unit(value, of)) for symbol, called, value, of in rows)
 
     def sought(self, solved: SolvedLinkage, words: Words, name: str) -> str:
-        """Return what a quantity of motion, a force, a reaction or what balances the driver is."""
-        from ...drawing.linkages.asking import meaning
+        """Return what a quantity of motion, a force, a reaction or what balances the driver is.
 
-        return "" if name in found_here(solved.program) else meaning(solved.mechanism, words, name)
+        That of a point which no scheme shows, as Assur's special point, is asked for by nobody.
+        """
+        from ...drawing.linkages.asking import meaning, on_scheme
+
+        hidden = name in found_here(solved.program) or not on_scheme(solved.mechanism, name)
+        return "" if hidden else meaning(solved.mechanism, words, name)
 
     def asks(self, solved: SolvedLinkage, question: Question) -> bool:
         """Ask not for each force of a couple: these are as large as the couple's force; nor for arms that none has.

@@ -23,11 +23,11 @@ from ...scales.packaged import packaged
 from ..case import Case
 from ..marking.keyed import SIGNED, Keyed
 
-HALF = 2.0  # how many tolerances off an answer still gets half
+HALF, MOST = 2.0, 0.2  # how many tolerances off an answer still gets half, and at most which part of the value
 ROUNDED = 0.005  # part of a value that is lost when it is written with three digits
 SHARE, DRAWINGS = 0.98, 2000  # of honest drawings that pass, of so many
 ALIKE, SAME = ("V", "a", "omega", "epsilon", "R"), 1e-9  # kinds of which one size is asked for once
-UNSURE = 0.25  # part of a value: drawings that miss by more do not tell it, and it is not asked for
+UNSURE = 0.15  # part of a value: drawings that miss by more do not tell it, and it is not asked for
 SCHEME, PER_MM, WIDEST = "scheme.svg", 4.0, 600.0  # its file, pixels of a millimetre of it, most of them
 PLACE = f"@@PLUGINFILE@@/{SCHEME}"  # by which a text calls the file of its own question
 BY = ("variant", "quantity")  # what a category holds: all questions of one, that a quiz may draw one of them
@@ -56,7 +56,7 @@ class Question:
         """Go through what gets a part of the mark, in per cent: the value, its tolerance, what is told of it."""
         said = packaged(__package__, "texts", self.language)
         yield 100, self.value, self.tolerance, ""
-        yield 50, self.value, HALF * self.tolerance, said["feedback.near"]
+        yield 50, self.value, min(HALF * self.tolerance, MOST * abs(self.value)), said["feedback.near"]
         if self.signed:
             yield 50, -self.value, self.tolerance, said["feedback.sense"]
 
@@ -89,7 +89,7 @@ class _Statement:
             lines = "\n".join(f"<tr><td>{a}</td><td>{b}</td><td>{c}</td></tr>" for a, b, c in rows if a or c)
             more = "".join(f"<p>{'. '.join(said)}.</p>" for said in [[b for a, b, c in rows if not (a or c)]] if said)
             self.data[loaded] = f"<table>\n{lines}\n</table>\n{more}"
-        alt = escape(self.said["question.scheme"])
+        alt = escape(self.said[f"question.scheme.{case.kind.table}"])
         drawn = f'<p><img src="{PLACE}" alt="{alt}" width="{self.width}"/></p>\n' if self.scheme else ""
         return f"{drawn}<p>{self.said['question.data']}</p>\n{self.data[loaded]}"
 
@@ -122,7 +122,7 @@ def questions_of(key: Keyed, names: Iterable[str], named: bool, hand: Hand, by: 
     """Go through the questions of a variant, drawn by a `hand`.
 
     What has no words of its own, what is a given, or as large as what has been asked for of its kind, as one of two
-    reactions that are one is, is asked for only where it is `named`. What such a hand does not find to a quarter of
+    reactions that are one is, is asked for only where it is `named`. What such a hand does not find to `UNSURE` of
     itself is not asked for.
     """
     case, words = key.solution.case, key.words

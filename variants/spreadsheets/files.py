@@ -249,7 +249,7 @@ def _related(parts: _Parts) -> tuple[tuple[str, str], list[tuple[str, str]], dic
             target = element.attrib["Target"]
             whole = target.lstrip("/") if target.startswith("/") else posixpath.normpath(f"xl/{target}")
             targets[element.attrib["Id"]] = element.get("Type", "").rpartition("/")[2], whole
-    sheets = [(name, targets[id][1]) for id, name in ids.items() if targets[id][0] == "worksheet"]
+    sheets = [(name, targets[id][1]) for id, name in ids.items() if id in targets and targets[id][0] == "worksheet"]
     if not sheets:
         raise _BrokenError
     return sheets[0], [one for one in sheets[1:] if one[0]], dict(targets.values())
