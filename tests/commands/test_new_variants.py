@@ -28,6 +28,7 @@ from kulman.variants.making.new_variants import (
     _most_pages,
     _ranges_of,
     _read_variants,
+    _table,
     _with_variants,
     import_variants,
 )
@@ -276,6 +277,29 @@ def test_a_spreadsheet_becomes_variants(turned: bool, tmp_path: Path, run: Run) 
     assert solve(task, "2")["V_B"].value == pytest.approx(solve(TASK, "1")["V_B"].value)
 
 
+PRINTED = "Величина;Вар. 1;Вар. 2;Вар. 3\nКривошип l_OA, мм;40;45;50\nШатун lAB, мм;190;200;30\nφ, град;30;60;120\n"
+
+
+def test_what_a_printed_table_has_not_may_be_set_for_all(tmp_path: Path, run: Run) -> None:
+    (file := tmp_path / "tab.csv").write_text(f"{PRINTED}n1;1400;1000;900\nFпс, Н;4000;5000;6000\n", encoding="utf-8")
+    own = [f"--set={said}" for said in ("l_AS2=65", "m_2=2", "m_3=1", "J_S2=0,01", "F_3=4 kN", "n_1=900")]
+    out = tmp_path / "tab.toml"
+
+    _, _, err = run("variants", TASK, "--from", str(file), *own[:3], "--lang", "en")
+    missing = re.findall(r"([BCD]\d, \d): no value is given of: ([^;]+);", err)
+    _, _, told = run("variants", TASK, "--from", str(file), *own, "-o", str(out), "--lang", "en")
+
+    assert missing == [(f"{'BCD'[n]}1, {n + 1}", "J_S2, F_3") for n in range(3)]
+    assert "tab.csv: what names no given is not read: Fпс, Н" in err
+    assert "tab.csv: what names no given is not read: Fпс, Н" in told
+    task = load_task(out)
+    assert list(task.variants) == ["1", "2"]  # the third cannot be assembled
+    assert [(row["l_AS2"], row["F_3"], row["n_1"]) for row in map(task.resolve, task.variants)] == [
+        pytest.approx((0.065, 4000.0, 30.0 * math.pi))
+    ] * 2
+    assert task.source["en"] == "data of my own"
+
+
 def test_a_file_of_new_variants_is_called_by_its_own_name(folder: Path, run: Run) -> None:
     run("variants", TASK, "--make", "1", "-o", "АТ-301 осінь.toml", "--lang", "en")
 
@@ -332,7 +356,7 @@ def table(folder: Path, text: str) -> str:
 
 
 def values(task: Task, file: str) -> dict[str, dict[str, float | str]]:
-    read = _read_variants(file, task)
+    read = _read_variants(_table(file, task), task, {})
     assert [str(problem) for one in read for problem in one.problems] == []
     return {one.id: {name: task.givens[name].read(text) for name, text in one.row.items()} for one in read}
 
@@ -419,7 +443,7 @@ def test_a_unit_of_a_header_is_never_passed_over(header: str, given: str, said: 
     task = load_task(TASK)
     file = table(tmp_path, f'Варіант;phi, град;"{header}"\n1;30;2,5\n')
 
-    [read] = _read_variants(file, task)
+    [read] = _read_variants(_table(file, task), task, {})
 
     if read.problems:
         assert re.search(rf"C2, {given}: .*{said}", str(read.problems[0]))
@@ -430,7 +454,8 @@ def test_a_unit_of_a_header_is_never_passed_over(header: str, given: str, said: 
 
 def test_numbers_without_ids_are_counted_and_data_that_are_missing_named(tmp_path: Path) -> None:
     assert list(values(load_task(TASK), table(tmp_path, "phi;l_OA\n\n30;25\n45;30\n\n\n"))) == ["1", "2"]
-    missing = r"A2, 1: no value is given of: l_OA, l_AS2, n_1, m_2, m_3, J_S2, F_3$"
+    lacking = "no value is given of: l_OA, l_AS2, n_1, m_2, m_3, J_S2, F_3"
+    missing = rf"A2, 1: {lacking}; .*A3, 2: {lacking}$"
     with pytest.raises(InputError, match=missing):
         import_variants(TASK, table(tmp_path, "Варіант;phi;l_AB\n1;30;125\n2;30;125\n"))
     with pytest.raises(InputError, match=r"B2, phi: 'abc' .*; .*C2, l_AB: 'def' "):
@@ -438,6 +463,9 @@ def test_numbers_without_ids_are_counted_and_data_that_are_missing_named(tmp_pat
 
 
 def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> None:
-    [read] = _read_variants(table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n"), load_task(TASK))
+    task = load_task(TASK)
+    file = table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n")
+
+    [read] = _read_variants(_table(file, task), task, {})
 
     assert set(read.row) == {"phi"}

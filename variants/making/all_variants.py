@@ -253,7 +253,7 @@ def all_variants(
         raise InputError("variants-range")
     if by not in BY:
         raise unknown("choice-unknown", by, BY)
-    new = None if table is None else import_variants(task, table)
+    new = None if table is None else import_variants(task, table, set)
     if make is not None:
         new = make_variants(task, make, ranges, set=set, seed=1 if seed is None else seed, advance=advance)
     of = task if new is None else new.task

@@ -12,11 +12,13 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cache
 from itertools import starmap
+from pathlib import Path
 
 from ...drawing.writers import slug
-from ...scales.errors import InputError, KulmanError, as_one
+from ...scales.errors import LANGUAGES, InputError, KulmanError, Written, as_one
 from ...scales.names import by_name, unknown
 from ...scales.numbers import SHOWN, quote
+from ...scales.packaged import packaged
 from ...scales.units import parse
 from ..case import Request, Settings, Tie, kind_of
 from ..crew import Advance
@@ -39,6 +41,7 @@ _BETWEEN = re.compile(r"\.\.\.?|…|–")  # the first and the last value of a r
 _HEADER = re.compile(r"\s*\[")
 _VARIANT = re.compile(r"\s*\[\[\s*variant\s*\]\]|\s*\[\s*variant\s*\.")
 _ARRAY = re.compile(r"\s*variant\s*=\s*\[")
+_SOURCE = re.compile("^source = .*", re.MULTILINE)
 _STRING = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'')
 
 
@@ -105,25 +108,30 @@ def make_variants(
     return _task_with(found, rows)
 
 
-def import_variants(task: AnyTask, file: str | os.PathLike[str]) -> NewVariants:
-    """Read variants from a spreadsheet; those that have no solution are left out and named, unless none has one."""
+def import_variants(task: AnyTask, file: str | os.PathLike[str], set: Settings | None = None) -> NewVariants:
+    """Read variants from a spreadsheet; those that have no solution are left out and named, unless none has one.
+
+    Givens in `set` all have alike, whatever the table says of them. What it says of no given is named.
+    """
     found = load_task(task)
+    fixed = {name: str(value) for name, value in by_name("set", set).items()}
+    found.resolve(None, fixed)
+    fixed = {name: _stated(found.givens[name], text) for name, text in fixed.items()}
     rows: dict[str, Mapping[str, str]] = {}
     pages = _most_pages(found)
-    first: tuple[KulmanError, ...] = ()  # what is wrong with the first variant that is left out
     left_out: list[KulmanError] = []
-    remarks: list[KulmanError] = []
-    for read in _read_variants(os.fspath(file), found):
+    table = _table(os.fspath(file), found)
+    remarks: list[KulmanError] = [*table.grid.unread, *table.unread]
+    for read in _read_variants(table, found, fixed):
         reasons, remark = _judged(found, read, pages)
         if not reasons and read.id in rows:
             reasons = (LocatedError(read.place, InputError("variant-twice")),)
-        first = first or reasons
         left_out.extend(reasons)
         remarks.extend(remark)
         if not reasons:
             rows[read.id] = read.row
     if not rows:
-        raise as_one(first) if first else InputError("answers-empty", file=quote(os.fspath(file)))
+        raise as_one([*left_out, *table.unread] or [InputError("answers-empty", file=quote(os.fspath(file)))])
     return replace(_task_with(found, rows), left_out=tuple(left_out), remarks=tuple(remarks))
 
 
@@ -151,6 +159,9 @@ def _judged(
 def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants:
     """Return a task with other variants; one that is no variant of the task is a `TaskFileError`."""
     text = _with_variants(task.text, rows.items())
+    if task.file is None:  # a bundled one, whose source has not these data
+        own = ", ".join(f'{one} = "{packaged(__package__, "texts", one)["source"]}"' for one in LANGUAGES)
+        text = _SOURCE.sub(f"source = {{ {own} }}", text, count=1)
     return NewVariants(task_of(text, task.file or f"{task.id}.toml"), text)
 
 
@@ -382,6 +393,18 @@ class _Table:
         return self.grid.place(*((column, row) if self.turned else (row, column)))
 
     @property
+    def unread(self) -> list[KulmanError]:
+        """What stands over numbers and names no given."""
+        numbers = {at for row in self.rows for at, text in enumerate(self.cells[row]) if _NUMBER.fullmatch(text)}
+        heads = [
+            quote(text, SHOWN)
+            for at, text in enumerate(self.cells[self.head])
+            if at in numbers and any(map(str.isalpha, text)) and at not in self.names and at > self.id_column
+        ]
+        told = {"file": quote(Path(self.grid.file).name, SHOWN), "names": Written(", ".join(heads))}
+        return [InputError("variants-unread", **told)] if heads else []
+
+    @property
     def rows(self) -> range:
         """The rows under the header."""
         return range(self.head + 1, len(self.cells))
@@ -400,15 +423,17 @@ class _Table:
         return next(said, next(apart, max(min(self.names) - 1, 0)))
 
 
-def _read_variants(file: str, task: Task) -> list[_Read]:
-    """Read the variants of a task from a spreadsheet, .csv or .xlsx.
-
-    A row, or a column, names the givens, `l_OA [mm]`; beside the names units may stand.
-    """
+def _table(file: str, task: Task) -> _Table:
+    """Read the table of a task's variants, .csv or .xlsx: a row, or a column, names the givens, `l_OA [mm]`."""
     grid = read_grid(file)
     table = max((_seen(grid, task, turned) for turned in (False, True)), key=lambda seen: len(seen.names))
     if not table.names:
         raise InputError("variants-header", file=quote(grid.file, SHOWN), known=", ".join(task.givens))
+    return table
+
+
+def _read_variants(table: _Table, task: Task, fixed: Mapping[str, str]) -> list[_Read]:
+    """Read the variants of a table, with what is `fixed` for all; beside the names units may stand."""
     column, units = table.id_column, dict[int, str]()
     found: list[_Read] = []
     for row in table.rows:
@@ -422,7 +447,7 @@ def _read_variants(file: str, task: Task) -> list[_Read]:
             units = {at: cells[at] for at in table.names if cells[at] not in NOTHING}
             continue
         name = slug(number_said(cells[column])) if column not in table.names else ""
-        found.append(_read_row(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task))
+        found.append(_read_row(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task, fixed))
     return found
 
 
@@ -479,18 +504,26 @@ def _named(part: str, first: bool, known: Mapping[str, str]) -> str:
     return words.pop() if len(words) == 1 else ""
 
 
-def _read_row(table: _Table, row: int, number: str, units: Mapping[int, str], task: Task) -> _Read:
-    """Read one variant; values as a task file has them: a decimal point, the given's own unit."""
-    stated: dict[str, str] = {}
+def _stated(given: Given, text: str) -> str:
+    """Return a value as a task file has it, a decimal point, the given's own unit; a word as it is."""
+    value = given.read(text)
+    if given.unit is None or isinstance(value, str):
+        return text
+    return f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()
+
+
+def _read_row(
+    table: _Table, row: int, number: str, units: Mapping[int, str], task: Task, fixed: Mapping[str, str]
+) -> _Read:
+    """Read one variant."""
+    stated = dict(fixed)
     problems: list[InputError] = []
     for column, (name, unit) in table.names.items():
         text, unit, given = table.cells[row][column], unit or units.get(column, ""), task.givens[name]
-        if text:
+        if text and name not in fixed:
             stated[name] = f"{text} {unit}" if unit not in ("", PLAIN) and _NUMBER.fullmatch(text) else text
             try:
-                value = given.read(stated[name])
-                if given.unit is not None and not isinstance(value, str):
-                    stated[name] = f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()
+                stated[name] = _stated(given, stated[name])
             except InputError as error:
                 problems.append(LocatedError(f"{table.place(row, column)}, {name}", error))
     return _Read(number, f"{table.place(row, table.id_column)}, {number}", stated, tuple(problems))
