@@ -33,6 +33,7 @@ function letters(html, parent, attributes, high = LETTER) { // scripts, slanted 
   const text = make("text", attributes, parent), holder = document.createElement("template");
   holder.innerHTML = html;
   let drop = 0, count = 0;
+  text.below = text.above = 0.55; // of the height of a letter, how far it reaches from its middle: indices and bars farther
   (function walk(node, style) {
     for (const child of node.childNodes) {
       if (child.nodeType === 3) {
@@ -42,6 +43,8 @@ function letters(html, parent, attributes, high = LETTER) { // scripts, slanted 
         if (style.small) run.setAttribute("font-size", (high * 0.72).toFixed(2));
         if (style.slanted) run.setAttribute("font-style", "italic");
         if (style.over) run.setAttribute("text-decoration", "overline");
+        if (style.drop > 0) text.below = 0.75;
+        if (style.over || style.drop < 0) text.above = 0.65;
         drop = style.drop;
         count += child.textContent.length * (style.small ? 0.72 : 1);
       } else {
@@ -182,37 +185,48 @@ const shownViews = () => [...new Set([views.get("position"), views.get($("which"
 
 // ---- letters beside what they name, away from lines and from one another
 const COVERS = 6, CUTS = 1.5, THIN = 0.5, AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
-function settle(view, segments) {
-  const taken = [];
+function settle(view, segments) { // one after the other, and those that have found no clear place once more, before all others
+  const order = view.points_first.filter(shape => shape.label && !shape.hidden), cost = placed => placed.reduce((sum, one) => sum + one.cost, 0);
+  let placed = placing(view, segments, order);
+  const hard = placed.filter(one => one.cost >= CUTS).map(one => one.shape);
+  if (hard.length) {
+    const again = placing(view, segments, [...hard, ...order.filter(shape => !hard.includes(shape))]);
+    if (cost(again) < cost(placed)) placed = again;
+  }
+  for (const { shape, at, k, crowded } of placed) {
+    const text = shape.label.text;
+    shape.tried = k;
+    text.classList.toggle("crowded", crowded);
+    if (!crowded) set(text, { x: (at[0] - text.wide / 2).toFixed(2), y: (-at[1] + view.letter * (0.36 + (text.above - text.below) / 2)).toFixed(2) });
+  }
+}
+function placing(view, segments, order) {
+  const taken = [], placed = [];
   if (view.grip) { const [x, y] = spot(here.found, drive.crank[1]).map(z => z / view.mu); taken.push([x - 5, y - 5, x + 5, y + 5]); }
-  for (const shape of view.points_first) {
-    const label = shape.label;
-    if (!label || shape.hidden) continue;
-    const wide = label.text.wide, high = view.letter * 1.1, tries = [];
+  for (const shape of order) {
+    const label = shape.label, wide = label.text.wide, high = view.letter * (label.text.below + label.text.above), tries = [];
     if (label.b) {
       const e = unit(sub(label.b, label.a)), n = [-e[1], e[0]], off = (label.off || 1.4) + Math.abs(n[0]) * wide / 2 + Math.abs(n[1]) * high / 2;
       for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) for (const more of [0, high]) { const foot = add(label.a, sub(label.b, label.a), part); tries.push([add(foot, n, way * (off + more)), foot]); }
     } else for (const far of [2.4, 4.2, 6.4, 9]) for (const e of AROUND) tries.push([add(label.a, [e[0] * (far + wide / 2), e[1] * (far + high / 2)]), label.a]);
     let best = null;
     const attempt = k => {
-      const [at, foot] = tries[k], near = add(foot, sub(at, foot), 0.2), box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
+      const [at, foot] = tries[k], near = add(foot, sub(at, foot), 0.05), box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
       let cost = k * 0.02;
       for (const other of taken) if (box[1] < other[3] && other[1] < box[3]) { // two in a row must not read as one word
         const gap = Math.max(box[0] - other[2], other[0] - box[2]);
         cost += gap < 0 ? COVERS : gap < 0.5 * view.letter ? 1 : 0;
       }
       for (const [a, b, by] of segments) cost += crosses(a, b, box) ? by || CUTS : !by && meet(a, b, near, at) ? label.b ? 2 * CUTS : CUTS : 0; // beyond a line it is read as that line's
-      if (!best || cost < best.cost) best = { cost, at, box, k };
+      if (!best || cost < best.cost) best = { shape, cost, at, box, k };
     };
     if (shape.tried < tries.length) attempt(shape.tried); // where it was it stays as long as it is clear there
     if (!best || best.cost >= THIN) for (let k = 0; k < tries.length && !(best && best.cost < k * 0.02); k++) attempt(k);
-    shape.tried = best.k;
-    const crowded = best.cost >= 2 * CUTS && !label.text.classList.contains("lit"); // it is read when it is pointed at
-    label.text.classList.toggle("crowded", crowded);
-    if (crowded) continue;
-    taken.push(best.box);
-    set(label.text, { x: (best.at[0] - wide / 2).toFixed(2), y: (-best.at[1] + view.letter * 0.36).toFixed(2) });
+    best.crowded = best.cost >= 2 * CUTS && !label.text.classList.contains("lit"); // it is read when it is pointed at
+    if (!best.crowded) taken.push(best.box);
+    placed.push(best);
   }
+  return placed;
 }
 function draw(view) {
   const mu = here.mu = view.mu, found = here.found, segments = [];
