@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
@@ -87,7 +88,7 @@ class Quantity:
     # units of products and ratios are not kept
     __mul__, __truediv__, __rtruediv__ = map(_times, (float.__mul__, float.__truediv__, float.__rtruediv__))
     __radd__, __rmul__ = __add__, __mul__
-    __pow__, __rpow__ = map(_times, (float.__pow__, float.__rpow__))
+    __pow__, __rpow__ = _times(operator.pow), _times(lambda own, other: operator.pow(other, own))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         """Return the value as numpy takes it: `numpy.sqrt(quantity)` is a number."""

@@ -72,6 +72,18 @@ def unknown(key: str, asked: object, known: Iterable[str], also: Iterable[str] =
     return UnknownNameError(key, text=quote(text), known=Written(shown or "—"), **data)
 
 
+def named(text: str, known: Iterable[str]) -> str:
+    """Return the one known name that is written as `text` but for Greek letters and `_`; else the text as it is.
+
+    >>> named("φ", ["phi", "l_AB"]), named("lAB", ["phi", "l_AB"]), named("lab", ["phi", "l_AB"])
+    ('phi', 'l_AB', 'lab')
+    """
+    names = [*known]
+    plain = unicodedata.normalize("NFKC", text).translate(GREEK).replace("_", "")
+    found = [name for name in names if name.replace("_", "") == plain]
+    return found[0] if text not in names and len(found) == 1 else text
+
+
 def latin(text: str) -> str:
     """Return `text` with Latin letters for the Cyrillic ones that look like them."""
     return text.translate(_ALIKE)

@@ -24,6 +24,7 @@ RUNGS = 16
 CRANK = {"V": 1, "a": 2}
 UNITS = {"l": "m", "s": "m", "V": "m/s", "a": "m/s^2", "F": "N", "h": "m/s"}  # arms on the lever are velocities
 # a segment by its letters on the plan, and the quantity that it shows: pa is V_A, p'a' is a_A, OA is l_OA
+_RATIO = re.compile(r"(?:[MМ]\s*)?([0-9]{1,9}(?:[.,][0-9]{1,9})?)\s*:\s*([0-9]{1,9}(?:[.,][0-9]{1,9})?)")  # 1:2,5
 SEGMENT_OF = {
     "a": re.compile(r"[pπ]['′]?([a-z])(\d*)['′](\d*)"),
     "V": re.compile(r"p([a-z])(\d*)"),
@@ -206,8 +207,24 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
     return Fixed(_given(kind, text, text), firm)
 
 
+def as_ratio(text: str) -> float | None:
+    """Return how many times as long as drawn a length is, of a scale such as `1:2,5`; None of another text.
+
+    >>> as_ratio("1:2,5"), as_ratio("М 2:1"), as_ratio("2.5 mm")
+    (2.5, 0.5, None)
+    """
+    found = _RATIO.fullmatch(text.strip())
+    if found is None:
+        return None
+    drawn, real = (split_number(part)[0] for part in found.groups())
+    return real / drawn if drawn else 0.0
+
+
 def _given(kind: str, written: str, text: str) -> float:
-    """Read a scale factor in either convention; `text` is the whole of what was said."""
+    """Read a scale factor in either convention, of lengths also `1:2`; `text` is the whole of what was said."""
+    ratio = as_ratio(written) if kind == "l" else None
+    if ratio is not None:
+        return _positive(ratio, text) / 1e3
     if split_number(written)[1].replace("мм", "mm").startswith("mm/"):  # the other convention: millimetres per unit
         per_unit = parse(written, unit(f"mm/({UNITS[kind]})")) * 1e3
         return 1.0 / _positive(per_unit, text)

@@ -20,7 +20,7 @@ from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
 from ..scales.errors import LANGUAGES, InputError, Written
 from ..scales.givens import Bound, Described, Givens
-from ..scales.names import by_name, names_of, of_kind, unknown
+from ..scales.names import by_name, named, names_of, of_kind, unknown
 from ..scales.numbers import quote
 from ..scales.packaged import packaged
 from ..scales.scale import AS_INSIDE, Chooser, Choosers, Display, Scale, Segment, chooser, segment_symbol
@@ -80,7 +80,8 @@ class Request:
     def case(self) -> Case:
         """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""
         task = self.task
-        variant, settings = task.variant(self.variant).id, by_name("set", self.settings)
+        variant, said = task.variant(self.variant).id, by_name("set", self.settings)
+        settings = {named(name, task.givens): value for name, value in said.items()}
         plans = plans_wanted(self.only, task)
         values, words = task.values(variant, settings), task.words(variant, settings)
         solved = kind_of(task.kind).solve(task.subject, values, words, plans)
@@ -490,6 +491,7 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
     symbols = kind_of(task.kind).scale_symbols(solved)
     drawn = {*solved.scale_of_plan.values(), *solved.scale_of_figure.values()}
     known = tuple(symbol for symbol in symbols if symbol in drawn)
+    scales = {named(name, known): text for name, text in scales.items()}
     for name, said in _by_symbol(scales, symbols, solved).items():
         text = as_text(said)
         of_kind(name, text, (str, Real), "str | float | tuple[float, str]")

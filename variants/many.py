@@ -23,7 +23,7 @@ from ..plans.linkages.solved import board_givens
 from ..plans.quantities import Quantity, results, unit_of
 from ..plans.solved import Columned
 from ..scales.errors import InputError, Written
-from ..scales.names import all_known, by_name, names_of, of_its_kinds, unknown
+from ..scales.names import all_known, by_name, named, names_of, of_its_kinds, unknown
 from ..scales.numbers import quote
 from ..scales.series import Series
 from ..scales.units import UnitName, converted, parse, unit
@@ -182,9 +182,11 @@ def solve_many(
     >>> solve_many("nau-slider-crank", "example", set={"phi": ([0, 45, 90], "deg")}, names="V_B").shape
     (3,)
     """
-    asked, first, read = load_task(task), by_name("set", set), dict[str, Array]()
+    asked, read = load_task(task), dict[str, Array]()
     if not isinstance(asked.subject, Mechanism):
         raise InputError("many-linkages", task=quote(asked.id))
+    first = {named(name, asked.givens): value for name, value in by_name("set", set).items()}
+    givens = {named(name, asked.givens): value for name, value in givens.items()}
     for name, value in {**first, **givens}.items():
         if name not in asked.givens:
             raise unknown("given-unknown", name, asked.givens, task=asked.id)

@@ -36,7 +36,7 @@ from .checks.basics import (
 )
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import table_in
-from .shelf import bundled, bundled_text, called
+from .shelf import bundled, bundled_text, called, numbered
 from .task import WITH_FORCES, AnyTask, Given, LocatedError, Task, decoded
 
 FEW = 3  # tasks that a word may be meant for
@@ -89,8 +89,9 @@ def load_task(task: AnyTask) -> Task:
     if isinstance(task, Task):
         return task
     of_kind("task", task, (str, os.PathLike), "str | PathLike | Task")
-    if isinstance(task, str) and task in bundled():
-        return _load_bundled(task)
+    named = numbered(task) if isinstance(task, str) and not os.path.exists(task) else task
+    if isinstance(named, str) and named in bundled():
+        return _load_bundled(named)
     shown = _shown(task)
     return task_of(_file_text(task, shown), shown)
 

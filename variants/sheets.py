@@ -310,7 +310,7 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
             changed[scale.symbol] = InputError("scale-changed", symbol=scale.symbol, **said)
             coarser |= scale.mu > usual.mu
     if changed:
-        shows = case.command("solve", "--format", drawn.sheet.letters)
+        shows = case.command("solve", "--format", drawn.sheet.name)
         said = {"format": drawn.sheet.letters, "usual": paper.name, "command": shows}
         key = "scales-reduced" if paper.name == drawn.sheet.letters and coarser else "scales-changed"
         warnings.append(InputError(key, changes=tuple(changed.values()), **said))

@@ -39,9 +39,20 @@ def bundled_text(task: str) -> str:
     return (_TASKS / f"{task}.toml").read_text(encoding="utf-8")
 
 
+def numbered(said: str) -> str:
+    """Return the bundled task whose name has the number that is said, `8`; anything else as it is.
+
+    >>> numbered("8"), numbered("80"), numbered("8.toml")
+    ('scheme-08-planer', '80', '8.toml')
+    """
+    number = int(said) if said.isascii() and said.isdecimal() else None
+    found = [task for task in bundled() if number in map(int, re.findall(r"\d+", task))]
+    return found[0] if len(found) == 1 else said
+
+
 def text_of(task: str) -> str:
     """Return the TOML of a bundled task that a user has named; `InputError` where there is none of that name."""
-    known = bundled()
+    known, task = bundled(), numbered(task)
     if task not in known:
         raise unknown("bundled-unknown", task, known)
     return bundled_text(task)

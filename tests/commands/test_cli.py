@@ -18,7 +18,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from kulman import __version__, cli
+from kulman import KulmanError, __version__, cli, sheet
+from kulman.drawing.formats import FORMATS
+from kulman.scales import choices
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.commands.test_languages import CYRILLIC, FOREIGN
 from kulman.tests.support.commands import Run
@@ -280,6 +282,38 @@ def test_the_language_stands_in_the_environment(
 
     assert found == status
     assert said in err
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        (("8", "-v", "7"), ("scheme-08-planer", "-v", "7")),
+        ((TASK, "--set", "φ=30", "--set", "lAB=140"), (TASK, "--set", "phi=30", "--set", "l_AB=140")),
+        (
+            (TASK, "--scale", "mu_l=1:2,5", "--scale", "μV=0.1"),
+            (TASK, "--scale", "mu_l=0.0025", "--scale", "mu_V=0.1"),
+        ),
+    ],
+    ids=["number of a scheme", "givens", "scale factors"],
+)
+def test_tasks_givens_and_scale_factors_are_named_as_in_rosters_and_forms(
+    said: tuple[str, ...], meant: tuple[str, ...], run: Run
+) -> None:
+    status, out, err = run("solve", *meant, "--only", "velocity")
+
+    assert status == 0
+    assert run("solve", *said, "--only", "velocity") == (status, out, err)
+
+
+def test_formats_are_those_of_one_list(run: Run, folder: Path) -> None:
+    assert tuple(FORMATS) == choices.FORMATS
+    with pytest.raises(KulmanError) as refused:
+        sheet(TASK, format="A7")
+    _, _, err = run("sheet", TASK, "--format", "A7", "-o", "x.svg")
+    listed = "expected one of: A4, A3, A3-portrait, A2, A1"
+    assert listed in str(refused.value)
+    assert listed in err
+    assert run("sheet", TASK, "--only", "position", "--format", "a3-portrait", "-o", "x.svg")[0] == 0
 
 
 TABLES = (

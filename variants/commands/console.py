@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 import click
 
-from ...scales.choices import LETTERINGS, PROFILES, SIZES
+from ...scales.choices import FORMATS, LETTERINGS, PROFILES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, as_one, system_language
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
@@ -455,7 +455,7 @@ def counted(name: str) -> Callable[[Function], Function]:
 
 def sized(**more: Any) -> Callable[[Function], Function]:
     """Return the option for the format of a sheet."""
-    return click.option("--format", type=Word(*SIZES), **more)
+    return click.option("--format", type=Word(*FORMATS), **more)
 
 
 as_json = click.option("--json", "as_json", is_flag=True)

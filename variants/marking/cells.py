@@ -18,7 +18,7 @@ from ...plans.quantities import Quantity
 from ...scales.errors import InputError
 from ...scales.names import latin
 from ...scales.numbers import quote, split_number, with_power
-from ...scales.scale import Display
+from ...scales.scale import Display, as_ratio
 from ...scales.units import Unit, bounded, converted, unit
 from ..spreadsheets.grid import UNDERSTOOD, Grid, symbol, tidy
 
@@ -43,7 +43,6 @@ _SEXAGESIMAL = re.compile(
     r"([+\-−–]?[0-9]{1,4})\s*[°º]\s*([0-5]?[0-9])\s*['’′]?\s*(?:([0-5]?[0-9])\s*(?:[\"″]|''|′′))?"
 )
 _QUOTIENT = re.compile(r"(?<=[0-9])\s*:\s*(?=[0-9])")  # of whole numbers, 4:3
-_RATIO = re.compile(r"(?:[MМ]\s*)?([0-9]{1,9}(?:[.,][0-9]{1,9})?)\s*:\s*([0-9]{1,9}(?:[.,][0-9]{1,9})?)")  # 1:2,5
 MM, DEGREE = unit("mm"), unit("deg")
 NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
 LONGEST = 250  # characters of a calculation
@@ -185,7 +184,7 @@ def signed(text: str) -> str:
 
 
 def in_degrees(text: str) -> str:
-    """Return an angle in degrees and minutes as one in degrees, to about a minute; any other text as it is.
+    r"""Return an angle in degrees and minutes as one in degrees, to about a minute; any other text as it is.
 
     >>> in_degrees("26° 39′"), in_degrees("-5°07'30\""), in_degrees("26,65°")
     ('26.65°', '-5.125°', '26,65°')
@@ -218,13 +217,12 @@ def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> M
     The unit per millimetre is that in SI, and as the task shows it: what a bare number is meant in. What is no number
     is refused, and one that is not positive, or a unit that is none of a scale factor of this plan.
     """
-    ratio = _RATIO.fullmatch(text) if unit(per_mm) == unit("m/mm") else None
-    number, rest = split_number(ratio[2] if ratio else text)
-    drawn = split_number(ratio[1])[0] if ratio else 1.0
-    if number <= 0.0 or drawn <= 0.0:
+    ratio = as_ratio(text) if unit(per_mm) == unit("m/mm") else None
+    number, rest = split_number(text) if ratio is None else (ratio, "")
+    if number <= 0.0:
         raise InputError("scale-not-positive", text=quote(text))
-    if ratio:  # of the drawing to what is drawn
-        return Mu(converted(number / drawn, MM, MM), sure=True)
+    if ratio is not None:
+        return Mu(converted(ratio, MM, MM), sure=True)
     name, si = rest or written, unit(per_mm)
     own = _known(name, si) if name else unit(display_per_mm)
     on_paper = {("mm", 1), ("cm", 1)}
