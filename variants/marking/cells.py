@@ -187,7 +187,7 @@ def in_degrees(text: str) -> str:
     r"""Return an angle in degrees and minutes as one in degrees, to about a minute; any other text as it is.
 
     >>> in_degrees("26° 39′"), in_degrees("-5°07'30\""), in_degrees("26,65°")
-    ('26.65°', '-5.125°', '26,65°')
+    ('26.65°', '-5.1250°', '26,65°')
     """
     found = _SEXAGESIMAL.fullmatch(text.strip())
     if found is None:
