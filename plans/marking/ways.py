@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..board import Program
-from ..mistakes.book import Book
+from ..mistakes.book import Book, Signature
 from ..mistakes.rules import BY_SCALE
 from ..names import POINT, role
 from .key import Key
@@ -106,10 +106,14 @@ def edges_of(program: Program, plan: str) -> Edges:
 
 
 def _changed_edges(right: Edges, program: Program, plan: str) -> Edges:
-    """Return the vectors of a plan that is drawn with a mistake; one that is only misread is drawn all the same."""
+    """Return the vectors of a plan that is drawn with a mistake; one that is only misread is drawn all the same.
+
+    So are those of which one is read for another: each goes between its own marks.
+    """
     own = edges_of(program, plan)
     names, made = {name for name, *_ in own}, set(program.names)
-    return (*own, *(edge for edge in right if edge[0] not in names and made.issuperset(edge[1:])))
+    found = (*own, *(edge for edge in right if edge[0] not in names and made.issuperset(edge[1:])))
+    return right if sorted(edge[1:] for edge in found) == sorted(edge[1:] for edge in right) else found
 
 
 def _quantity_shown(name: str) -> str:
@@ -162,3 +166,23 @@ def _look_of(shape: Shape) -> tuple[Any, ...]:
     """Return what shapes have in common that look alike on paper, and are of about the same size."""
     ends = np.round(np.stack((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
     return (round(math.log(shape.longest) / SIZE), *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))
+
+
+def as_drawn(book: Book) -> Book:
+    """Return the book as drawings show mistakes: a vector that was read for another has its own size there."""
+    key, found = book.key, list[Signature]()
+    for one in book.signatures:
+        changed = {step.plan for steps in one.broken.change.steps.values() for step in steps if step.verb == "read"}
+        rights = {plan: edges_of(key.paper.program, plan) for plan in changed}
+        drawn = {
+            name: one.values[tip] - one.values[tail]
+            for plan, right in rights.items()
+            if _changed_edges(right, one.broken.program, plan) is right
+            for name, tail, tip in right
+            if name in key.questions
+        }
+        if drawn:
+            row = np.array([drawn.get(name, at) for name, at in zip(key.questions, one.row, strict=True)], complex)
+            one = replace(one, values={**one.values, **drawn}, row=row)
+        found.append(one)
+    return replace(book, signatures=tuple(found))

@@ -16,7 +16,7 @@ from kulman.plans.marking.drawn import DIRECTED, MEASURED, Recognised, _laying, 
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.verdicts import mark
-from kulman.plans.marking.ways import edges_of
+from kulman.plans.marking.ways import as_drawn, edges_of
 from kulman.plans.mistakes.book import Book, Signature
 from kulman.plans.mistakes.explaining import explain
 from kulman.tests.support.cases import some
@@ -51,6 +51,33 @@ def missed(sheet: Bare, drawing: Distorted) -> dict[str, float]:
             max(abs(ends[0] - drawing.place(a, v)), abs(ends[1] - drawing.place(b, v))) for v, a, b in alike
         )
     return off
+
+
+@pytest.mark.parametrize(
+    ("task", "place"),
+    [
+        pytest.param(FEW[2], ("M21", "V_BA", "V_B"), id="one segment for another"),
+        pytest.param(FEW[2], ("M125", "a_B_t", ""), id="the normal part for the tangential one"),
+        pytest.param(FEW[0], ("M20", "V_BA", "0.1 alone"), id="centimetres for millimetres"),
+    ],
+)
+def test_what_was_misread_is_drawn_as_it_should_be_and_told_by_what_follows(
+    task: str, place: tuple[str, str, str]
+) -> None:
+    sheet = bare(task)
+    book = as_drawn(sheet.book)
+    wrong = next(one for one in book.signatures if one.broken.place == place)
+    drawn = [
+        Answer(name, mm=abs(vector) / mu, mu=mu, direction=cmath.phase(vector))
+        for (name, question), vector in zip(sheet.key.questions.items(), wrong.row.tolist(), strict=True)
+        if question.vector and abs(vector) >= MEASURED * (mu := sheet.key.paper.mus[question.plan])
+    ]
+
+    marking = mark(sheet.key, drawn)
+
+    assert marking[place[1]].verdict.passed
+    assert place[0] in explain(book, marking).candidates[0].ids
+    assert all(place[0] not in one.ids for one in explain(sheet.book, marking).candidates[:1])
 
 
 @pytest.mark.parametrize("task", some(FEW, 0, 3))

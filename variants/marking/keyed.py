@@ -18,6 +18,7 @@ from ...drawing.words import GREEK, Given, Words
 from ...plans.hands.shaky import Tolerance, paper_of, preset
 from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.key import Key, Question, answer_key, hanging_on
+from ...plans.marking.ways import as_drawn
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
@@ -383,6 +384,11 @@ class Keyed:
     def book(self) -> Book:
         """What every mistake would give: costs more than the key, and is needed where an answer is wrong."""
         return book(self.key)
+
+    @cached_property
+    def drawn(self) -> Book:
+        """What every mistake would give on a drawing, where vectors have no names."""
+        return as_drawn(self.book)
 
     @cached_property
     def magnified(self) -> Mapping[str, float]:

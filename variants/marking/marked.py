@@ -346,7 +346,7 @@ class Desk:
         given = [rubric.compared(answer, key.key.questions[answer.name]) for answer in given]
         marking, candidates = mark(key.key, given), tuple[Candidate, ...]()
         if marking.first_wrong is not None:
-            candidates, marking = explain(key.book, marking)
+            candidates, marking = explain(key.book if on_drawing is None else key.drawn, marking)
         names: Collection[str] = rubric.asked or answers.columns
         names = names or {q.name for part in key.parts for q in part.asked}
         if on_drawing is not None:  # which shows no more than vectors
