@@ -52,7 +52,7 @@ NUMERALS.remove("V")
 UNNUMBERED = NUMERALS[2:]  # of the details of a figure that has no number: shelves are as long as VIII needs
 _WORD = re.compile("[IVX]+")
 BROKEN = 0.5  # mm between a letter and a line broken at it
-STRUCK = 0.15  # mm between a letter and a thin line that seems to run through it
+STRUCK = 0.25  # mm between a letter and a thin line, or the chord of an arc, that seems to run through it
 UNBROKEN = ("leader", "shelf", "right-angle", "arrow")  # roles of thin lines that break off nowhere
 DOT = 1.2  # mm; what is left of a construction line beside a letter is no shorter
 # heights of its letters that a line of a heading has below it for scripts, and above for parentheses, for squares

@@ -9,8 +9,10 @@ import pytest
 import shapely
 
 from kulman.drawing.areas import beside, clipped, coarser, hatched, strokes, thinned
-from kulman.drawing.shapes import Arc, Group, Line, Pen, Polyline, sides_of
-from kulman.drawing.view import left_of
+from kulman.drawing.formats import STYLES
+from kulman.drawing.page import extent
+from kulman.drawing.shapes import Arc, Group, Line, Pen, Polyline, Text, sides_of
+from kulman.drawing.view import Canvas, left_of
 from kulman.tests.support.shapes import places, within
 
 STAR = [cmath.rect(40.0, 2.0 * cmath.pi * 2 * k / 5) + 3 - 7j for k in range(5)]  # crosses itself: a hole in the middle
@@ -91,6 +93,21 @@ def test_no_dot_of_a_construction_line_is_left_beside_a_letter(past: float) -> N
 
     ends = [end for piece in pieces for end in (piece.a, piece.b)]
     assert ends == pytest.approx([0j, 8.0 + 0j, 14.0 + 0j, 17.0 + 0j][: 4 if past > 1.0 else 2], abs=1e-6)
+
+
+def test_an_arc_is_broken_at_a_letter_that_it_touches_beside_its_chords() -> None:
+    round_it, canvas = Arc(0j, 35.0, 0.0, 2.0 * cmath.pi, Pen.THIN), Canvas(STYLES["A1"])
+    a, b = next(iter(sides_of(round_it)))
+    middle = (a + b) / abs(a + b)
+    x0, y0, _, _ = extent((Text(0j, "n", 5.0, role="label"),))
+    letter = Text(middle * 35.1 - complex(x0, y0), "n", 5.0, role="label")
+    canvas.add(round_it, letter)
+    canvas.label("far", 200 + 0j)
+
+    left = [shape for shape in canvas.finish("figure").shapes if isinstance(shape, Arc)]
+
+    assert abs(middle * 35.1 - (a + b) / 2) > 0.19  # the pen is 0.15 mm wide on both sides of the arc
+    assert left != [round_it]
 
 
 @pytest.mark.parametrize("within", [0.02, 0.1, 1.0])
