@@ -500,6 +500,17 @@ def test_of_arms_side_by_side_the_shorter_ones_are_nearer_to_the_pole(task: str,
     assert pairs
 
 
+@pytest.mark.parametrize("variant", some(["0", "8"], 0))
+def test_arms_are_moved_off_forces_that_they_would_cross(variant: str) -> None:
+    view = Linkage("scheme-03-crank-rocker", variant).sheet["lever"]
+    arms = [s for s in view.strokes if s.path and s.path[-1][0] == "arm" and s.role == "thin" and len(s.points) == 2]
+    forces = [(arrow.tail, arrow.tip) for arrow in view.arrows]
+
+    inner = [(a + 0.6 * (b - a) / abs(b - a), b + 0.6 * (a - b) / abs(b - a)) for a, b in (s.points for s in arms)]
+    assert len(inner) > 4
+    assert not any(crosses(arm, force) for arm, force in product(inner, forces))
+
+
 @pytest.mark.parametrize(
     ("task", "variant", "figure"),
     some([("scheme-13-toggle-press", "0", "group_45"), ("scheme-11-slotter", "0", "group_45")], 0),

@@ -42,6 +42,7 @@ CLEAR, WIDE, PUSHED, ASIDE, INWARD = 0.56, 0.8, 0.08, 0.42, 0.1
 ALONGSIDE = math.sin(math.radians(6.0))  # arms that make a smaller angle are parallel to the eye
 CLOSE = math.cos(math.radians(12.0))  # arms that make a smaller angle run into one another, or into a line there
 STEP, TRIES = 2.4, 6  # heights of an arm's letters between arms that are staggered; how often one is moved
+AROUND, ENDS = 2, 0.5  # steps more by which an arm is moved rather than cross another one; mm of it at both ends
 TURNING = 2.0  # rad, the arrow of a couple
 OF_FOOT = 2  # steps by which an arm is moved past the foot of a pivot
 LEANS = [0.14 * k for k in range(-5, 6)]  # rad from the middle of a foot, in which its lines leave the pivot
@@ -169,17 +170,18 @@ class Sketch:
         style, rays = self.scene.style, [*self._barred.get(_place(pole), ()), *rays_of(pole, self.strokes)]
         least, settled = _staggered(pole, arms, middle, style, rays, past), dict[int, float]()  # by how many steps
         shifts = dict[int, complex]()
-        for reach, i in sorted((abs(arm.foot - pole), i) for i, arm in enumerate(arms)):
-            if reach < LEAST:
-                continue
+        order = sorted((reach, i) for i, arm in enumerate(arms) if (reach := abs(arm.foot - pole)) >= LEAST)
+        for reach, i in order:
             way, step = (arms[i].foot - pole) / reach, outward(arms[i], pole, middle) * STEP * style.text
-            beside = (k for k in settled if (way.conjugate() * unit(arms[k].foot - pole)).real > CLOSE)
-            begin = max((settled[k] + 1.0 for k in beside), default=0.0)
+            beside = [k for _, k in order if (way.conjugate() * unit(arms[k].foot - pole)).real > CLOSE]
+            begin = max((settled[k] + 1.0 for k in beside if k in settled), default=0.0)
             begin = max(begin, abs(least.get(i, 0j) / step))
             taken = [*self._arms, *((pole + by, arms[k].foot + by) for k, by in shifts.items())]
-            tries = (begin + k for k in range(TRIES))
-            free = (k for k in tries if not self._upon(pole + k * step, arms[i].foot + k * step, taken))
-            settled[i] = next(free, begin)
+            lies = [(pole + k * step, arms[i].foot + k * step) for k in (begin + n for n in range(TRIES))]
+            free = [n for n, ends in enumerate(lies) if not self._upon(*ends, taken)]
+            behind = sum(k not in settled for k in beside)  # itself, and those that are moved with it
+            costs = [n * behind + AROUND * self._crossed(*ends, taken) for n, ends in enumerate(lies)]
+            settled[i] = begin + min(free, key=costs.__getitem__, default=0)
             shifts[i] = settled[i] * step
         return {i: by for i, by in shifts.items() if by}
 
@@ -192,6 +194,12 @@ class Sketch:
             if (shapely.length(along) > 0.9 * letter).any():
                 return True
         return False
+
+    def _crossed(self, a: complex, b: complex, arms: Sequence[Stroke]) -> int:
+        """Return how many of these arms a line crosses, and of forces twice as many, those apart on which it ends."""
+        way = ENDS * unit(b - a)
+        crossed = shapely.crosses(lines([a + way], [b - way]), _as_lines([*self._lying, *self._lying, *arms]))
+        return int(crossed.sum())
 
     def hang(self, name: str, at: complex, said: str = "") -> None:
         """Draw the arrow of a force at a point, or beyond what stands there, and letter it; once.
