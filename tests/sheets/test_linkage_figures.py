@@ -574,6 +574,16 @@ def test_small_forces_stand_in_insets_and_can_be_measured_there(case: Linkage) -
     assert numerals
 
 
+@pytest.mark.parametrize("variant", some(["1", "2", "6"], 1))
+def test_vectors_of_a_detail_are_long_enough_for_their_letters(variant: str) -> None:
+    view = Linkage("scheme-07-two-stage-compressor", variant).sheet["forces_23"]
+    (inset,) = view.insets
+
+    own = [abs(v.span) for v in inset.vectors if NEAR < abs(view.vector(v.quantity).span) < STYLE.arrow]
+    assert len(own) > 1
+    assert min(own) >= 2.5 * STYLE.arrow
+
+
 def test_points_of_a_detail_have_their_letters_there_and_but_for_the_pole_not_again_on_the_plan() -> None:
     plans = [view for view in Linkage("scheme-14-jaw-crusher", "0").sheet.views if view.name.startswith("forces_")]
     detailed = [plan for plan in plans if plan.insets]
@@ -978,7 +988,7 @@ def test_lines_that_find_a_joint_run_past_it(task: str) -> None:
             ("scheme-16-hay-baler", "2", {"forces_4"}),
             ("scheme-13-toggle-press", "2", {"acceleration"}),
             ("scheme-09-shaper", "4", {"acceleration"}),
-            ("scheme-20-press-automaton", "0", set()),
+            ("scheme-20-press-automaton", "0", {"acceleration"}),
         ],
         2,
         4,

@@ -25,7 +25,7 @@ from ..reading import Edge
 from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
 
-READABLE = 1.4  # arrowheads: the least length of a vector in an inset
+READABLE, EASY = 1.4, 2.5  # arrowheads: the least length of a vector in an inset, and that which holds its letter
 # enlargements, those of points that crowd up to the last; what is less than three times as large looks the same
 LEAST_TIMES, MOST_TIMES = 3.0, 10.0
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e >= LEAST_TIMES)
@@ -178,11 +178,11 @@ class Plan:
         short = self._short(1.0)
         if role(self.plan).kind != FORCES or len(short) <= FEW:
             return []
-        best, most, clusters = list[Window](), (0, 0), _clusters(short)
+        best, most, clusters = list[Window](), [0, 0, 0], _clusters(short)
         for times, first in product(self._times, clusters):
             shown = _together(first, clusters, WIDEST * self.scene.style.label / times)
             arrows = [length_of(vector) * times / self.scene.style.arrow for vector in shown]
-            read = sum(size >= 1.0 for size in arrows), sum(size >= READABLE for size in arrows)
+            read = [sum(size >= least for size in arrows) for least in (1.0, READABLE, EASY)]
             if read > most:
                 best, most = [Window.about(_ends(shown), times, NARROWEST)], read
         return best
