@@ -693,6 +693,30 @@ def test_a_small_arrowhead_tells_where_a_line_goes_on(both: bool) -> None:
     assert bool(errors[1] < 0.5) is both
 
 
+def test_an_arrowhead_whose_wings_letters_touch_is_found() -> None:
+    pole, head, end = 20 + 20j, 52 + 20j, 90.3 + 20j
+    letters = [(head - 3 + 1.1j * side, head + 1 + 1.1j * side) for side in (1, -1)]
+    pencil = pencil_of([(pole, end), *letters], [(pole, head), (head, end)])
+    way = plan_of([0j, 31.5 + 0j, 70 + 0j], (0, 1), (1, 2))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[1] - head) < 0.3
+    assert errors[1] < 0.5
+
+
+def test_an_arrowhead_of_a_short_vector_is_found_before_a_letter() -> None:
+    pole, head, end = 20 + 20j, 27.6 + 20j, 60 + 20j
+    letter = [(head + 0.3 + 0.7j * side, head + 1.2 + 0.7j * side) for side in (1, -1)]
+    pencil = pencil_of([(pole, end), *letter], [(pole, head), (head, end)])
+    way = plan_of([0j, 7 + 0j, 40 + 0j], (0, 1), (1, 2))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[1] - head) < 0.4
+    assert errors[1] < 0.5
+
+
 @pytest.mark.parametrize("clean", [True, False])
 def test_an_end_beside_which_nothing_is_drawn_is_no_letter(clean: bool) -> None:
     pole, bend, end = 20 + 10j, 60 + 10j, 60 + 41.4j
@@ -790,6 +814,19 @@ def test_arrowheads_tell_which_way_a_vector_goes(
     said = senses(pencil, way, points, found)
 
     assert {n: said[n] for n in said if n in told or said[n] != 1} == told
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+def test_a_wing_that_a_line_hides_from_most_sides_is_not_a_bare_one(reverse: bool) -> None:
+    tip, letter = B - 10, [(A, A + 3.3 * np.exp(1j * np.radians(turn))) for turn in (15, -25)]
+    points = np.array([A, tip, tip + 40 * np.exp(1j * np.radians(164))])
+    pencil = pencil_of([(A, tip), (points[2], tip), *letter], [(tip, A) if reverse else (A, tip)])
+    way = plan_of([*(points - A)], (0, 1), (1, 2))
+    _, _, found = traced(pencil, way, points, points, A)
+
+    said = senses(pencil, way, points, found)
+
+    assert said.get(0) == (-1 if reverse else None)
 
 
 def test_a_vector_that_is_longer_than_it_should_be_ends_where_its_arrowhead_is() -> None:

@@ -40,8 +40,9 @@ BAND, WIDE, NARROW = np.arange(0.35, 0.76, 0.1), 0.2, 0.1  # mm beside a line th
 WIDER, BLUNT, LEVEL = 0.8, 0.55, 0.15  # mm along which it is; from there to the point; sine of lines that go on
 ALONE = 1.5  # mm of a line before its end beside which nothing is, if that is no letter
 ASIDE = 0.15  # mm, half the width of a line
+TOPS = 0.6  # mm around within which a place of wings is the best one
 CONTRAST, TOP = 0.5, 0.15  # of wings against the paper beside them, at the least; within which places are as good
-ARROWED = 9.0  # mm of a vector whose arrowhead can be told from its line
+ARROWED, WINGED = 9.0, 6.0  # mm of a vector whose arrowhead can be told from its line; whose wings can be found
 POINTED, BARE = 0.55, 0.3  # parts of how dark their line is that wings must be, and where none is seen at the most
 CLEARLY = 0.85  # the same of wings that must not be other lines
 DOUBTED = 0.2  # part by which wings at the wrong end are darker from which they make the sense doubtful
@@ -290,7 +291,8 @@ def ends_at(pencil: Pencil, tail: complex, tip: complex, other: complex) -> bool
 class _Wings(NamedTuple):
     """How dark, against their line, wings of an arrowhead may be: `both` of them, the `faint` and the `dark` side.
 
-    NaN where other lines hide them. No wing of an arrowhead is faint; other lines, letters may be dark on both sides.
+    NaN where other lines hide them: what is seen of a side that they partly hide may be beside its wing. No wing of an
+    arrowhead is faint; other lines, letters may be dark on both sides.
     """
 
     both: float
@@ -300,14 +302,14 @@ class _Wings(NamedTuple):
 
 def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: Iterable[Ends]) -> _Wings:
     """Return how dark wings of an arrowhead at a tip are."""
-    size, pairs, sides = abs(tip - tail), list[float](), (list[float](), list[float]())
+    size, pairs, sides, partly = abs(tip - tail), list[float](), (list[float](), list[float]()), [False, False]
     unit = (tip - tail) / size
     at = np.arange(-NEAR, NEAR + 0.05, 1.0 / PER_MM)
     for wing in WINGS:
         behind, both = _behind(wing, size), list[Floats]()
         if len(behind) < FEWEST:
             continue
-        for side, own in zip((wing, -wing), sides, strict=True):
+        for number, (side, own) in enumerate(zip((wing, -wing), sides, strict=True)):
             legs = tip + at[:, None] * unit - unit * np.exp(1j * side) * behind[None, :]
             dark, hidden = pencil.at(legs)
             for a, b in others:
@@ -317,9 +319,12 @@ def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: It
             mean = np.where(hidden, 0.0, dark).sum(axis=1) / np.maximum(count, 1) / line
             both.append(np.where(count < FEWEST, np.nan, mean))
             own += mean[count >= FEWEST].tolist()
+            partly[number] |= bool(count[len(count) // 2] < FEWEST)
         pairs += (least := np.minimum(*both))[~np.isnan(least)].tolist()
-    seen = [max(own) for own in sides if own] or [math.nan]
-    return _Wings(max(pairs, default=math.nan), min(seen), max(seen))
+    most, told = max(pairs, default=math.nan), [max(own, default=math.nan) for own in sides]
+    seen = [own for own, hides in zip(told, partly, strict=True) if own >= POINTED or not (hides or own != own)]
+    seen = seen or [math.nan]
+    return _Wings(most if most >= POINTED or not any(partly) else math.nan, min(seen), max(seen))
 
 
 def _towards(line: Traced, tail: complex, tip: complex) -> tuple[complex, complex, float]:
@@ -354,10 +359,10 @@ def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterato
 def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
     """Go through where an arrowhead on a line points to: its two wings are found, then where they meet the line."""
     unit, foot, size = _towards(line, tail, tip)
-    if size < ARROWED:
+    if size < WINGED:
         return
     at = np.arange(-min(REACH, size / 3), REACH, 1.0 / PER_MM)
-    best, place, angle = 0.0, 0.0, 0.0
+    best, angles = np.zeros(len(at)), np.zeros(len(at))
     for wing, by in product(WINGS, BY[::2]):  # the line may lie beside the point by a little
         behind = _behind(wing, size)
         if len(behind) < FEWEST:
@@ -365,13 +370,25 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         tips = foot + (at[:, None] + 1j * by) * unit
         legs = [tips - unit * np.exp(1j * side) * behind[None, :] for side in (wing, -wing)]
         score = np.minimum(*(pencil.at(leg)[0] for leg in legs)).mean(axis=1) / line.dark
-        own = int(score.argmax())
-        if score[own] > best:
-            best, place, angle = float(score[own]), float(at[own]), wing
-    if best > POINTED and at[0] < place < at[-1]:
-        by = _apex(pencil, foot + place * unit, unit, angle, min(WING, 0.9 * size / 3))
+        best, angles = np.maximum(best, score), np.where(score > best, wing, angles)
+    tops = [*_tops(best)]
+    for own in tops:  # lines that cross may look like wings, too
+        by = _apex(pencil, foot + at[own] * unit, unit, float(angles[own]), min(WING, 0.9 * size / 3))
         if by is not None:
-            yield _Spot(complex(foot + (place + by) * unit), unit, arrow=True)
+            yield _Spot(complex(foot + (at[own] + by) * unit), unit, arrow=True)
+            return
+    if tops:  # letters beside its wings hide how these stand out
+        yield _Spot(complex(foot + at[tops[0]] * unit), unit, arrow=True)
+
+
+def _tops(score: Floats) -> Iterator[int]:
+    """Go through where wings are darkest around, the darkest first, as far as they are dark enough; not at an end."""
+    near = round(TOPS * PER_MM)
+    for own in np.argsort(-score).tolist():
+        if score[own] <= POINTED:
+            return
+        if 0 < own < len(score) - 1 and score[own] >= score[max(own - near, 0) : own + near + 1].max():
+            yield own
 
 
 def _widened(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
