@@ -279,7 +279,9 @@ class _Search:
             best = max(filter(self._by_size, ways), key=lambda fit: fit.worth, default=usual)
             chosen = best if best.worth > usual.worth + OTHER else usual
             by_chance = self.laying.arrows and not (self._by_size(chosen) or chosen.senses @ chosen.weights > 0.0)
-            if chosen.quality >= ENOUGH and not by_chance and self._evident(chosen, chosen.shape.right):
+            mistaken = {number for fit in fits.values() if not fit.shape.right for number in fit.shape.broken}
+            expected = chosen.shape.right or not mistaken.isdisjoint(chosen.shape.broken)
+            if chosen.quality >= ENOUGH and not by_chance and self._evident(chosen, expected):
                 self._take(fits, chosen)
         if not any(self.common in fit.shape.broken for fit in fits.values() if not fit.shape.right):
             self.common = RIGHT  # no plan that is drawn has the mistake
@@ -295,10 +297,11 @@ class _Search:
             ]
             if found:
                 self._take(fits, max(found, key=lambda fit: fit.worth))
-        self._lead_on(fits, turn)
+        if self.book is not None:  # without it plans are found as far as they are right
+            self._lead_on(fits, turn)
         worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
         if all(fit.shape.flat for fit in fits.values()) and not all(right.flat for right in self.plans.values()):
-            fits = {}  # single lines are on any drawing
+            fits = {plan: fit for plan, fit in fits.items() if fit.told > 0.0}  # single lines are on any drawing
         return fits, worth, self.common
 
     def _lead_on(self, fits: dict[str, Fit], turn: float) -> None:

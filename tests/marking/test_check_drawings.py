@@ -305,11 +305,14 @@ def test_nothing_is_drawn_on_a_blank(tmp_path: Path, task: str, variant: str, on
     assert error.value.key == "drawing-unknown"
 
 
-SOME_PLANS = [("nau-slider-crank", "3"), ("scheme-14-jaw-crusher", "1"), ("scheme-11-slotter", "1")]
+SOME_PLANS = [
+    ("nau-slider-crank", "3"), ("scheme-14-jaw-crusher", "1"), ("scheme-11-slotter", "1"),
+    pytest.param("scheme-02-forging-press", "1", id="vectors over one another"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("only", some(["velocity", "position,velocity", "position,velocity,acceleration"], 0, 2))
-@pytest.mark.parametrize(("task", "variant"), some(SOME_PLANS, 0))
+@pytest.mark.parametrize(("task", "variant"), some(SOME_PLANS, 0, 3))
 def test_plans_that_are_not_drawn_are_not_found_in_other_lines(
     tmp_path: Path, task: str, variant: str, only: str
 ) -> None:

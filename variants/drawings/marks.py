@@ -140,8 +140,8 @@ def _pointed(ends: np.ndarray, heads: np.ndarray) -> tuple[np.ndarray, np.ndarra
     found = ends.copy()
     found[line[fits], 1] = tips[head[fits]]
     found[line[fits], 0] = ends[line[fits], 1 - end[fits]]
-    pointed, heads_of = np.unique(line[fits], return_counts=True)  # a dimension has two
-    return found, pointed[heads_of == 1]
+    pointed, ends_of = np.unique(np.unique(at[fits]) // 2, return_counts=True)  # a dimension has heads at both
+    return found, pointed[ends_of == 1]
 
 
 def _letters(pieces: Sequence[_Piece]) -> Iterator[Letter]:
