@@ -47,6 +47,7 @@ def test_a_table_is_said_in_the_language_that_is_asked_for(tmp_path: Path) -> No
     rows = list(csv.reader(found.save(tmp_path / "key.csv")[0].read_text("utf-8-sig").splitlines(), delimiter=";"))
 
     assert found.table("en") == all_variants(TASK, quantities=["V_B"], lang="en").table() != found.table()
+    assert rows[0][:3] == ["name", "unit", "0"]  # the same in every language
     assert rows[1][:3] == ["V_B", "м/с", "2,16225964"]
 
 
@@ -96,6 +97,7 @@ def test_the_key_of_all_variants_is_a_page_to_print(tmp_path: Path) -> None:
     assert f"<td>{size:.4g}<br><small>{mm:.1f} mm</small></td>" in page
     assert f"<td>{solution.scales['mu_V'].mu:.4g}</td>" in page
     assert f"<td>{(solution['h_2'].value or 0.0) * 1e3:.4g}<br>" in page  # an arm in mm
+    assert f"<p>Segments, mm, as on a sheet of the format {solution.format}</p>" in page
     assert "F″<sub>i2</sub>" in page  # F′ = F″, both with their indices
     two = (
         all_variants("nau-slider-crank", make=12, lang="en").save(tmp_path / "made.html")[0].read_text(encoding="utf-8")

@@ -575,6 +575,16 @@ def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, run: Run) 
         assert any("no direction" in note for note in found["notes"])
 
 
+def test_the_first_wrong_step_is_one_that_is_asked_for(tmp_path: Path, run: Run) -> None:
+    file = answers(tmp_path, {"a_BA_n": 1.5})
+
+    alone = marked(run, file, "--rubric", rubric(tmp_path, 'asked = ["V_B", "V_BA", "omega_2"]\n'))
+    other = marked(run, file, "--rubric", rubric(tmp_path, 'asked = ["V_B", "a_BA_n"]\n'))
+
+    assert (alone["mark"], alone["first_wrong"]) == (100.0, None)
+    assert other["first_wrong"] == "a_BA_n"
+
+
 def test_numbers_of_a_rubric_may_have_a_decimal_comma_in_quotes(tmp_path: Path) -> None:
     of = [read_rubric(rubric(tmp_path, f"[weights]\nV_B = {text}\n"), "normal", ASKED) for text in ("3.5", '"3,5"')]
 
@@ -609,6 +619,8 @@ def test_a_rubric_sets_tolerances_and_limits_single_quantities(tmp_path: Path, r
         ("weights = 3", "weights"),
         ('directions = "maybe"', "directions"),
         ("= 3", "rubric.toml:1:1: not valid TOML"),
+        ("[worth]\nединица = 1\n", "rubric.toml:2:1: worth.единица: unknown key 'единица'; expected one of: right, "),
+        ("вага = 1\n", "unknown key 'вага'; expected one of: out_of, asked"),
         ("[weights]\nV_B = 3,5\n", "rubric.toml:2:8: not valid TOML"),
         ('[weights]\nV_B = "3,5 mm"\n', "weights.V_B: '3,5 mm'"),
         ("\0", "not a rubric in TOML"),

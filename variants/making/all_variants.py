@@ -90,8 +90,8 @@ class AllVariants(Result):
     def data(self, language: str | None = None) -> Table:
         """Return the values, a column for each variant."""
         own = self._language if language is None else language
-        columns, *rows = self._rows(own)
-        return Table(tuple(map(str, columns)), tuple(rows), own, self.check.request.task.id, exact=False)
+        _, *rows = self._rows(own)
+        return Table(("name", "unit", *self.keys), tuple(rows), own, self.check.request.task.id, exact=False)
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman variants --json` prints: values in SI by variant."""
@@ -155,7 +155,16 @@ class AllVariants(Result):
                 cells = "".join(f"<td>{cell}</td>" for cell, _ in told)
                 of = ' class="mu"' if name in part.scales else ""
                 rows += f"<tr{of}><td>{_symbol(first, name)}</td><td>{unit}</td>{cells}</tr>"
-        return f"<table>{rows}</table>"
+        return f"{self._formats(variants)}<table>{rows}</table>"
+
+    def _formats(self, variants: Sequence[str]) -> str:
+        """Say on which format segments are so long, of each variant where these differ."""
+        found = dict[str, list[str]]()
+        for one in variants:
+            found.setdefault(self.keys[one].solution.format, []).append(one)
+        each = (f"{name} ({', '.join(of)})" if len(found) > 1 else name for name, of in found.items() if name)
+        formats = "; ".join(each)
+        return f"<p>{escape(texts(self._language)['key.format'].format(format=formats))}</p>" if formats else ""
 
     def _questions(self) -> Iterator[Question]:
         """Go through the questions, those of one category after the other."""

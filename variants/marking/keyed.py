@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from collections import Counter
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping
@@ -47,6 +48,7 @@ NOTHING = 1e-6  # part of a tolerance that is rounding
 RATES = ("omega", "epsilon")  # kinds of quantities of links
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
+_CYRILLIC = re.compile("^[А-яЁёІіЇїЄєҐґ]+(?= *=)", re.MULTILINE)  # keys of a rubric in these letters alone
 LARGEST_NUMBER = 1_000_000  # of a rubric
 TOLERANCES = {"mm": LARGEST_NUMBER, "percent": 100, "degrees": 180}  # with the largest of each
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
@@ -171,6 +173,7 @@ def _read(file: str | Path, usual: Tolerance, asked: Asked) -> Rubric:
     path, shown, read, text = Path(file), quote(file, SHOWN), dict[str, Any](), ""
     try:
         text = (path.read_bytes() if path.stat().st_size <= LARGEST else b"\0").decode("utf-8-sig")
+        text = _CYRILLIC.sub(r'"\g<0>"', text)  # no key is one: those that there are shall be told
         raw, checker = tomllib.loads(text), Checker(shown, Places(text))
     except FileNotFoundError:
         raise InputError("file-missing", file=shown) from None

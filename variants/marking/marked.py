@@ -362,6 +362,8 @@ class Desk:
         fits = fits or _fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
         lines = counted()
+        if rubric.asked:  # what else was answered may explain, but nobody has asked for it
+            marking = replace(marking, first_wrong=first_wrong(lines, marking.marker))
         parts = rubric.parts(lines, key.by_plan, key.needed)
         vectors = [line.answer for line in lines if line.answer is not None and isinstance(line.right, complex)]
         notes += undefined
