@@ -571,6 +571,19 @@ def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(tmp_path: Pat
     assert re.search(r'(src|href)="', html) is None
 
 
+def test_worksheets_of_a_class_that_are_not_read_are_told(tmp_path: Path, run: Run) -> None:
+    book = openpyxl.Workbook()
+    for sheet, name in ((book.worksheets[0], "Лис"), (book.create_sheet("АТ-302"), "Сич")):
+        for row in (["Студент", "Варіант", "V_B, м/с"], [name, "3", "3,39"]):
+            sheet.append(row)
+    book.save(file := tmp_path / "class.xlsx")
+
+    _, out, err = run("check", TASK, str(file), "--lang", "en")
+
+    assert "class.xlsx: only the first worksheet is read, not: АТ-302" in out + err
+    assert "Сич" not in out
+
+
 def test_students_of_tasks_that_nobody_knows_are_told(tmp_path: Path) -> None:
     rows = (
         ["student", "task"],

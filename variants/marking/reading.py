@@ -473,7 +473,7 @@ def _class(
     if len(unknown_names) > len(by_name):
         raise LocatedError(grid.place(header), InputError("answers-other", names=quote(", ".join(unknown_names))))
     if warn is not None:
-        for error in strangers:
+        for error in (*grid.unread, *strangers):
             warn(error)
     for row, group in grid.students(header):
         if cells.NONE.issuperset(grid.rows[row]):
