@@ -20,6 +20,7 @@ function asked(spec) {
 const filled = html => html.replace(/[\ue000-\uf8ff]/g, sign => asked(D.asked[sign.charCodeAt(0) - 0xe000]));
 
 // ---- shapes
+const element = tag => document.createElement(tag);
 function make(tag, attributes, parent) {
   const node = document.createElementNS(SVG, tag);
   for (const [key, text] of Object.entries(attributes)) node.setAttribute(key, text);
@@ -30,10 +31,10 @@ const set = (node, attributes) => { for (const key in attributes) node.setAttrib
 const line = (node, a, b) => set(node, { x1: a[0].toFixed(3), y1: (-a[1]).toFixed(3), x2: b[0].toFixed(3), y2: (-b[1]).toFixed(3) });
 const round = points => points.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" ");
 function letters(html, parent, attributes, high = LETTER) { // scripts, slanted letters and bars as runs of one text
-  const text = make("text", attributes, parent), holder = document.createElement("template");
+  const text = make("text", attributes, parent), holder = element("template");
   holder.innerHTML = html;
   let drop = 0, count = 0;
-  text.below = text.above = 0.55; // of the height of a letter, how far it reaches from its middle: indices and bars farther
+  text.down = text.up = 0.55; // letters; indices and bars reach farther
   (function walk(node, style) {
     for (const child of node.childNodes) {
       if (child.nodeType === 3) {
@@ -43,8 +44,8 @@ function letters(html, parent, attributes, high = LETTER) { // scripts, slanted 
         if (style.small) run.setAttribute("font-size", (high * 0.72).toFixed(2));
         if (style.slanted) run.setAttribute("font-style", "italic");
         if (style.over) run.setAttribute("text-decoration", "overline");
-        if (style.drop > 0) text.below = 0.75;
-        if (style.over || style.drop < 0) text.above = 0.65;
+        if (style.drop > 0) text.down = 0.75;
+        if (style.over || style.drop < 0) text.up = 0.65;
         drop = style.drop;
         count += child.textContent.length * (style.small ? 0.72 : 1);
       } else {
@@ -69,16 +70,20 @@ const named = (text, a, b) => { // a vector that is hardly seen has its letter w
   text.classList.toggle("short", short);
   return short ? null : { text, a, b };
 };
+const joined = (s, n, p) => { const ends = [p(s.a), p(s.b)]; line(n, ...ends); return [ends]; };
+const arrowed = (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; };
+const lettered = (kind, r) => ({ z: 4, make: (g, s, high) => { const c = make("circle", { class: kind, r }, g); c.letter = letters(s.text, g, {}, high); return c; },
+  draw: (s, n, p) => { const at = p(s.at); set(n, { cx: at[0], cy: -at[1] }); s.label = { text: n.letter, a: at }; return []; } });
 const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn again
-  bar: { z: 2, make: (g, s) => make("line", { class: s.lit ? "main now" : "main" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
-  side: { z: 1, make: (g, s) => make("line", { class: s.main ? "main" : "thin" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
+  bar: { z: 2, make: (g, s) => make("line", { class: s.lit ? "main now" : "main" }, g), draw: joined },
+  side: { z: 1, make: (g, s) => make("line", { class: s.main ? "main" : "thin" }, g), draw: joined },
   line: { z: 0, make: g => make("line", { class: "thin" }, g), draw: (s, n, p, v) => {
     const a = p(s.a), b = p(s.b), u = v(s.u), along = dot(sub(b, a), u), e = along < 0 ? -8 : 8;
     const ends = [Math.abs(along) < 1 ? add(b, u, -10) : a, add(b, u, Math.abs(along) < 1 ? 10 : e)]; line(n, ...ends); return [[...ends, THIN]];
   } },
-  vector: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
+  vector: { z: 2, make: arrowed,
     draw: (s, n, p) => { const a = p(s.a), b = p(s.b); line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = named(n.letter, a, b); return [[a, b]]; } },
-  force: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
+  force: { z: 2, make: arrowed,
     draw: (s, n, p, v) => { const a = p(s.at), f = v(s.v), none = !(size(f) > 1e-12), reach = s.long ? size(f) * s.long / views.get("position").force : HANG, b = add(a, unit(f), reach); n.style.display = n.letter.style.display = none ? "none" : "";
       if (none) { s.label = null; return []; } line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = { text: n.letter, a: add(a, unit(f), reach * 0.6), b }; return [[a, b]]; } },
   arm: { z: 0, make: g => make("g", {}, g), draw: (s, n, p, v) => {
@@ -127,8 +132,8 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   pivot: { z: 4, make: g => { const group = make("g", {}, g); make("path", { class: "main", d: "M0 0L-3 6H3Z" }, group); make("path", { class: "thin", d: "M-5 6H5M-4 6l-2 2M-1 6l-2 2M2 6l-2 2M5 6l-2 2" }, group); make("circle", { class: "paper", r: 1.4 }, group); return group; },
     draw: (s, n, p) => { const [x, y] = p(s.at); n.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)})`); return []; } },
   centre: { z: 4, make: g => make("circle", { class: "solid", r: 1 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
-  pole: { z: 4, make: (g, s, high) => { const c = make("circle", { class: "paper", r: 0.9 }, g); c.letter = letters(s.text, g, {}, high); return c; }, draw: (s, n, p) => { const at = p(s.at); set(n, { cx: at[0], cy: -at[1] }); s.label = { text: n.letter, a: at }; return []; } },
-  mark: { z: 4, make: (g, s, high) => { const c = make("circle", { class: "solid", r: 0.5 }, g); c.letter = letters(s.text, g, {}, high); return c; }, draw: (s, n, p) => { const at = p(s.at); set(n, { cx: at[0], cy: -at[1] }); s.label = { text: n.letter, a: at }; return []; } },
+  pole: lettered("paper", 0.9),
+  mark: lettered("solid", 0.5),
   letter: { z: 5, make: (g, s, high) => letters(s.text, g, {}, high), draw: (s, n, p) => { s.label = { text: n, a: p(s.at) }; return []; } },
   number: { z: 5, make: (g, s, high) => letters(s.text, g, {}, high), draw: (s, n, p) => { s.label = { text: n, a: p(s.ends[0]), b: p(s.ends[1]), off: 3 }; return []; } },
 };
@@ -185,26 +190,22 @@ const shownViews = () => [...new Set([views.get("position"), views.get($("which"
 
 // ---- letters beside what they name, away from lines and from one another
 const COVERS = 6, CUTS = 1.5, THIN = 0.5, AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
-function settle(view, segments) { // one after the other, and those that have found no clear place once more, before all others
-  const order = view.points_first.filter(shape => shape.label && !shape.hidden), cost = placed => placed.reduce((sum, one) => sum + one.cost, 0);
-  let placed = placing(view, segments, order);
-  const hard = placed.filter(one => one.cost >= CUTS).map(one => one.shape);
-  if (hard.length) {
-    const again = placing(view, segments, [...hard, ...order.filter(shape => !hard.includes(shape))]);
-    if (cost(again) < cost(placed)) placed = again;
-  }
-  for (const { shape, at, k, crowded } of placed) {
-    const text = shape.label.text;
+function settle(view, segments) { // those without a clear place once more, before all others
+  const order = view.points_first.filter(shape => shape.label && !shape.hidden), sum = all => all.reduce((n, one) => n + one.cost, 0);
+  const first = placing(view, segments, order), hard = first.flatMap(one => one.cost < CUTS ? [] : one.shape);
+  const again = hard.length ? placing(view, segments, new Set([...hard, ...order])) : first;
+  for (const { shape, at, k, crowded } of sum(again) < sum(first) ? again : first) {
+    const { text } = shape.label;
     shape.tried = k;
-    text.classList.toggle("crowded", crowded);
-    if (!crowded) set(text, { x: (at[0] - text.wide / 2).toFixed(2), y: (-at[1] + view.letter * (0.36 + (text.above - text.below) / 2)).toFixed(2) });
+    if (text.classList.toggle("crowded", crowded)) continue;
+    set(text, { x: (at[0] - text.wide / 2).toFixed(2), y: (-at[1] + view.letter * (0.36 + (text.up - text.down) / 2)).toFixed(2) });
   }
 }
 function placing(view, segments, order) {
   const taken = [], placed = [];
   if (view.grip) { const [x, y] = spot(here.found, drive.crank[1]).map(z => z / view.mu); taken.push([x - 5, y - 5, x + 5, y + 5]); }
   for (const shape of order) {
-    const label = shape.label, wide = label.text.wide, high = view.letter * (label.text.below + label.text.above), tries = [];
+    const label = shape.label, wide = label.text.wide, high = view.letter * (label.text.down + label.text.up), tries = [];
     if (label.b) {
       const e = unit(sub(label.b, label.a)), n = [-e[1], e[0]], off = (label.off || 1.4) + Math.abs(n[0]) * wide / 2 + Math.abs(n[1]) * high / 2;
       for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) for (const more of [0, high]) { const foot = add(label.a, sub(label.b, label.a), part); tries.push([add(foot, n, way * (off + more)), foot]); }
@@ -379,7 +380,7 @@ function tell() {
   if (!view) { $("told").closest("section").classList.add("gone"); return; }
   list.replaceChildren();
   here.told = view.steps.map((html, k) => {
-    const item = document.createElement("li");
+    const item = element("li");
     item.addEventListener("click", () => replay(k + 1));
     list.appendChild(item);
     return [item, html];
@@ -404,14 +405,14 @@ function replay(count) {
 // ---- givens
 function givens() {
   for (const item of D.givens) {
-    const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
+    const label = element("label"), input = element("input"), text = element("span");
     label.innerHTML = item.symbol; label.htmlFor = input.id = `given-${item.name}`; text.innerHTML = item.unit;
     Object.assign(input, { type: "text", inputMode: "decimal", autocomplete: "off", value: item.fixed ? said(item.value, 6) : written(item.value), disabled: item.fixed });
     input.addEventListener("change", () => change(item, input));
     $("givens").append(label, input, text);
   }
   const fixed = D.givens.filter(item => item.fixed).length;
-  if (fixed) $("givens").append(Object.assign(document.createElement("p"), { textContent: D.pieces === undefined ? W.fixed : fixed < D.givens.length ? W.some : W.given }));
+  if (fixed) $("givens").append(Object.assign(element("p"), { textContent: D.pieces === undefined ? W.fixed : fixed < D.givens.length ? W.some : W.given }));
   $("again").classList.toggle("gone", fixed === D.givens.length);
   $("givens").addEventListener("submit", event => event.preventDefault());
   $("again").addEventListener("click", () => {
@@ -488,7 +489,7 @@ function begin() {
   $("play").addEventListener("click", () => playing ? pause() : play());
   for (const view of D.views) for (const list of [$("which"), $("replayed")]) {
     if (list.id === "which" ? view.name === "position" : !view.steps.length) continue;
-    const option = document.createElement("option");
+    const option = element("option");
     option.value = view.name; option.textContent = view.heading.replace(/<[^>]+>/g, "");
     list.appendChild(option);
   }
@@ -502,7 +503,7 @@ function begin() {
   $("next").addEventListener("click", () => replay(until() === undefined ? 1 : until() + 1));
   $("all").addEventListener("click", () => replay(undefined));
   for (const q of D.quantities) {
-    const row = $("values").tBodies[0].insertRow(), box = document.createElement("input");
+    const row = $("values").tBodies[0].insertRow(), box = element("input");
     row.dataset.q = q.name;
     row.insertCell().innerHTML = q.symbol; row.insertCell(); row.insertCell().innerHTML = q.unit; row.insertCell();
     Object.assign(box, { type: "checkbox", checked: shown.has(q.name) });
