@@ -38,7 +38,8 @@ class Function:
         return self.function(argument)
 
 
-FUNCTIONS = {name: getattr(math, name) for name in ("sin", "cos", "tan")} | {"arccos": math.acos, "inv": _involute}
+FUNCTIONS = {name: getattr(math, name) for name in ("sin", "cos", "tan")}
+FUNCTIONS |= {"arccos": math.acos, "arctan": math.atan, "inv": _involute}
 NAMES = {
     **{name: Function(function) for name, function in FUNCTIONS.items()},
     **{f"{name}2": Function(lambda x, f=function: f(x) ** 2) for name, function in FUNCTIONS.items()},
