@@ -122,6 +122,18 @@ def states() -> None:
         row(f"{MANY:,} states of {len(names)} names", ours * 1e3, "ms", goal, f"{ours / bare:.2f} times the bare batch")
         for frame in framed:
             row("the same as a data frame", frame * 1e3, "ms", 2 * goal, f"{frame / bare:.2f} times the bare batch")
+    turn = np.linspace(0.0, 2.0 * math.pi, 361)
+    for name, goal, asked in (
+        (
+            "361 positions of 100 shapers",
+            60,
+            {"task": "scheme-09-shaper", "phi": turn, "l_DE": np.linspace(0.17, 0.3, 100)[:, None]},
+        ),
+        ("one of 3,610 compressors", 600, {"task": "scheme-01-compressor", "l_AB": np.linspace(0.34, 0.4, 3610)}),
+    ):
+        taken = shortest(lambda: kulman.solve_many(**asked, names="M_bal"))  # noqa: B023
+        states_of = int(np.prod(np.broadcast_shapes(*(np.shape(value) for value in asked.values()))))
+        row(f"{name}, M_bal", taken * 1e3, "ms", goal, f"{taken / states_of * 1e6:.1f} us a state")
     text = shortest(many.csv)
     row("these as CSV", text, "s", 0.25, f"{text / bare:.0f} times the bare batch, {text / MANY * 1e6:.1f} us a state")
 

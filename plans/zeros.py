@@ -102,7 +102,7 @@ def zeros(function: Function, stretch: Stretch) -> tuple[Array, Array]:
     low, high, held = (
         np.concatenate(pair) for pair in zip((theta[cells], theta[cells + 1], above[cells]), inner, strict=True)
     )
-    roots = _refined(at, low, high, held.astype(bool)) if len(low) else low
+    roots = refined(at, low, high, held.astype(bool)) if len(low) else low
     return _sorted(roots, stretch), _sorted(touches, stretch)
 
 
@@ -112,13 +112,13 @@ def _sorted(theta: Array, stretch: Stretch) -> Array:
     return places
 
 
-def _refined(function: Function, low: Array, high: Array, above: Array) -> Array:
+def refined(function: Function, low: Array, high: Array, above: Array) -> Array:
     """Return the zeros in cells at whose ends the signs differ, cut, then interpolated.
 
-    `above` tells which functions are above zero at `low`.
+    `above` tells which functions are above zero at `low`. Each is found as it would be alone.
     """
     parts = np.linspace(0.0, 1.0, SECTIONS + 1)[:, None]
-    columns = np.arange(len(low))
+    columns, zero, going = np.arange(len(low)), np.empty(len(low)), np.full(len(low), True)
     for done in range(MOST_ROUNDS):
         theta = low + (high - low) * parts
         values = function(theta.ravel()).reshape(theta.shape)
@@ -130,10 +130,23 @@ def _refined(function: Function, low: Array, high: Array, above: Array) -> Array
         with np.errstate(invalid="ignore", divide="ignore"):
             share = left / (left - right)
         between = (share >= 0.0) & (share <= 1.0) & np.isfinite(right) & np.isfinite(left)  # false for NaN
-        if done >= ROUNDS - 1 and between.all():
-            break
-    zero: Array = low + (high - low) * np.where(between, share, above)
+        zero[going] = (low + (high - low) * np.where(between, share, above))[going]
+        if done >= ROUNDS - 1:
+            going &= ~between
+            if not going.any():
+                break
     return zero
+
+
+def dipping(values: Array) -> NDArray[np.bool_]:
+    """Tell, of the inner points of a grid along the first axis, where a function comes near zero on one side of it."""
+    before, here, after = values[:-2], values[1:-1], values[2:]
+    sign = np.where(here >= 0.0, 1.0, -1.0)
+    depth = here * sign
+    with np.errstate(invalid="ignore"):
+        bend = (before - 2.0 * here + after) * sign
+    near: NDArray[np.bool_] = (before * sign >= depth) & (after * sign >= depth) & (depth < DIP * bend)
+    return near
 
 
 def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple[Array, Array]:
@@ -141,13 +154,8 @@ def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple
 
     A cell is (low, high, whether the function is above zero at low).
     """
-    before, here, after = values[:-2], values[1:-1], values[2:]
-    sign = np.where(here >= 0.0, 1.0, -1.0)
-    depth = here * sign
-    with np.errstate(invalid="ignore"):
-        bend = (before - 2.0 * here + after) * sign
-    at = np.flatnonzero((before * sign >= depth) & (after * sign >= depth) & (depth < DIP * bend))
-    low, high, sign = theta[at], theta[at + 2], sign[at]
+    at = np.flatnonzero(dipping(values))
+    low, high, sign = theta[at], theta[at + 2], np.where(values[at + 1] >= 0.0, 1.0, -1.0)
     cells: list[tuple[float, float, bool]] = []
     touches: list[float] = []
     for last in (*(False,) * (DIP_ROUNDS - 1), True):

@@ -45,8 +45,8 @@ def numbered(said: str) -> str:
     >>> numbered("8"), numbered("80"), numbered("8.toml")
     ('scheme-08-planer', '80', '8.toml')
     """
-    number = int(said) if said.isascii() and said.isdecimal() else None
-    found = [task for task in bundled() if number in map(int, re.findall(r"\d+", task))]
+    numbers = [int(said)] if said.isascii() and said.isdecimal() else []
+    found = [task for task in bundled() if numbers and numbers[0] in map(int, re.findall(r"\d+", task))]
     return found[0] if len(found) == 1 else said
 
 

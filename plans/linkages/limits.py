@@ -168,10 +168,12 @@ class Reach:
         return stretch.low <= place <= stretch.high
 
 
-class _MarginBoard(ArrayBoard):
+class MarginBoard(ArrayBoard):
     """An array board that notes what every arc has to spare, and the sine of every two lines that meet."""
 
-    margins: dict[str, Any]
+    def __init__(self, givens: Mapping[str, Any], size: int) -> None:
+        super().__init__(givens, size)
+        self.margins: dict[str, Any] = {}
 
     def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
         """Begin with other positions and a new list of margins."""
@@ -200,7 +202,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     zeros, than 1e-9 rad.
     """
     _, program = constructed(drive.mechanism.without_loads, ("position",))
-    position = drive.along(program, values, program.names, _MarginBoard)
+    position = drive.along(program, values, program.names, MarginBoard)
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):
         return Reach(whole, (), _gaps(whole, ()), (), ())
@@ -209,7 +211,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     @remembering
     def margins(at: Array) -> Mapping[str, Array]:
         board = position.run(at)
-        assert isinstance(board, _MarginBoard)
+        assert isinstance(board, MarginBoard)
         return board.margins
 
     for step in position.steps:
@@ -238,10 +240,15 @@ def _followed(drive: Swept, whole: Stretch) -> list[Stretch]:
     return [whole] if high - low >= 2.0 * TURN else [whole.part(max(low, high - TURN), high)]
 
 
+def full_turn() -> Stretch:
+    """Return the range of a crank that goes round."""
+    return Stretch(0.0, TURN, TURN / TURN_CELLS, closed=True)
+
+
 def _range(drive: Swept, values: Mapping[str, float], between: Arc | None) -> Stretch:
     """Return a full turn of a crank, or the range of a slide: twice as far as all its links together reach."""
     if drive.turns:
-        return Stretch(0.0, TURN, TURN / TURN_CELLS, closed=True)
+        return full_turn()
     if between is not None:
         return Stretch(between.low, between.high, (between.high - between.low) / SLIDE_CELLS)
     far = 2.0 * size_of(drive.mechanism, values)

@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from ...scales.errors import InputError
 from ...scales.kept import Kept
 from ..board import Program, Step
-from ..boards.arrays import remembering
+from ..boards.arrays import CODES, remembering
 from ..laws import TURN, inclination
-from ..zeros import Stretch, zeros
+from ..zeros import Stretch, dipping, refined, zeros
 from .chain import constructed, moving_bodies
-from .limits import Reach, Swept, reach_of, size_of, swept
+from .limits import MarginBoard, Reach, Swept, full_turn, reach_of, size_of, swept
 from .loads import BEGIN, END
 from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, start_names
 from .structure import Structure
@@ -32,6 +32,8 @@ from .structure import Structure
 Array = NDArray[Any]
 INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding
 _STROKES = Kept[Any](64)  # from where to where outputs move
+FEWEST, AT_ONCE = 8, 64  # mechanisms whose strokes are found together at least, and at most
+FAR = 1e3  # how much faster than still a slider has to be to count as moving without a closer look
 STILL = 1e-9  # part of the usual velocity below which an output stands still for good
 
 
@@ -176,14 +178,87 @@ def stroke_ends(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, An
     needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
     varying = {name: np.asarray(value) for name, value in needed.items() if np.ndim(value)}
     firsts, rows = _distinct([*varying.values()]) if varying else ([0], None)
-    written, found = repr(mechanism), []
-    for first in firsts:
-        one = {name: float(varying[name][first] if name in varying else value) for name, value in needed.items()}
+    chosen = {name: column[firsts] for name, column in varying.items()}
+    low, high = _plain_strokes(mechanism, needed | chosen, len(firsts))
+    written = repr(mechanism)
+    for i in np.flatnonzero(np.isnan(low)).tolist():
+        one = {name: float(chosen[name][i] if name in chosen else value) for name, value in needed.items()}
         asked = written, repr(sorted(one.items()))
         travel = _STROKES.get(asked, partial(stroke_of, mechanism, {**one, driver_at: 0.0}))
-        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
-    begin, end = zip(*found, strict=True)
-    return {name: at[0] if rows is None else np.array(at)[rows] for name, at in ((BEGIN, begin), (END, end))}
+        low[i], high[i] = travel.low, travel.high
+    forth = np.asarray((needed | chosen).get(sense, 1.0)) > 0.0
+    ends = {BEGIN: np.where(forth, low, high), END: np.where(forth, high, low)}
+    return {name: float(at[0]) if rows is None else at[rows] for name, at in ends.items()}
+
+
+def _plain_strokes(mechanism: Mechanism, values: Mapping[str, Any], size: int) -> tuple[Array, Array]:
+    """Return from where to where a slider moves, in arrays, as `stroke_of` finds it, for mechanisms of many lengths.
+
+    NaN, for all where they are few, and where the crank does not go round far from every limit, the slider has a dip of
+    its velocity, or the output is no slider: these are found one by one.
+    """
+    low, high = np.full(size, np.nan), np.full(size, np.nan)
+    assert mechanism.stroke is not None
+    if size < FEWEST or mechanism.starts or not isinstance(mechanism.driver, Driver):
+        return low, high
+    drive = swept(mechanism, {})
+    steady = _steady(drive.mechanism)
+    structure, program = constructed(steady, ("velocity",))
+    output = next(output for output in outputs(steady, structure) if output.link == mechanism.stroke.link)
+    if not output.slides or output.rate is None:
+        return low, high
+    _, position = constructed(drive.mechanism.without_loads, ("position",))
+    motion = measured(program, (output,)).needed_for((output.place, output.rate))
+    for start in range(0, size, AT_ONCE):
+        part = slice(start, start + AT_ONCE)
+        some = {name: value[part] if np.ndim(value) else value for name, value in values.items()}
+        low[part], high[part] = _strokes_of_some(drive, output, some, (position, motion))
+    return low, high
+
+
+@np.errstate(invalid="ignore", divide="ignore")
+def _strokes_of_some(
+    drive: Swept, output: Output, values: Mapping[str, Any], programs: tuple[Program, Program]
+) -> tuple[Array, Array]:
+    """Return the ends of a slider's strokes, shape (N,), by programs of positions and of its velocity; NaN as above."""
+    assert output.rate is not None
+    size = max(len(value) for value in values.values() if np.ndim(value))
+    whole = full_turn()
+    theta = whole.grid()
+    at, of = np.repeat(whole.place(theta), size), np.tile(np.arange(size), len(theta))
+    there, moving = (_run(program, drive, values, at, of) for program in programs)
+    rate = np.reshape(moving.values[output.rate], (len(theta), size))
+    plain = (np.reshape(there.codes, rate.shape) < CODES["singular"]).all(axis=0) & np.isfinite(rate).all(axis=0)
+    for margin in there.margins.values():
+        spare = np.reshape(np.broadcast_to(margin, at.shape), rate.shape)
+        plain &= ((spare > 0.0).all(axis=0) | (spare < 0.0).all(axis=0)) & ~dipping(spare).any(axis=0)
+    median = np.sort(np.abs(rate), axis=0)[[(len(theta) - 1) // 2, len(theta) // 2]].mean(axis=0)
+    lengths = sum(np.abs(value) for value in values.values())
+    plain &= (median > FAR * STILL * lengths) & ~dipping(rate).any(axis=0)
+    above = rate >= 0.0
+    cell, column = np.nonzero((above[1:] != above[:-1])[: whole.cells])
+
+    def motion(places: Array) -> Mapping[str, Array]:
+        return _run(programs[1], drive, values, places, np.resize(column, len(places))).values
+
+    def velocity(turned: Array) -> Array:
+        return motion(whole.place(turned))[str(output.rate)]
+
+    roots = whole.place(refined(velocity, theta[cell], theta[cell + 1], above[cell, column]) % TURN)
+    ends, low, high = motion(roots), np.full(size, np.inf), np.full(size, -np.inf)
+    np.minimum.at(low, column, ends[output.place])
+    np.maximum.at(high, column, ends[output.place])
+    np.logical_and.at(plain, column, np.abs(ends[output.rate]) <= median[column])
+    plain &= low < high
+    return np.where(plain, low, np.nan), np.where(plain, high, np.nan)
+
+
+def _run(program: Program, drive: Swept, values: Mapping[str, Any], at: Array, of: NDArray[np.intp]) -> MarginBoard:
+    """Do a program for places of the driver, shape (N,), each in one of the mechanisms, by its number."""
+    own = {name: value[of] if np.ndim(value) else value for name, value in values.items()}
+    board = MarginBoard(drive.givens(own, at), len(at))
+    program.run(board)
+    return board
 
 
 def _distinct(columns: Sequence[Array]) -> tuple[list[int], NDArray[np.intp]]:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 import kulman
 from kulman import KulmanError, Quantity, Series, Status, load_task, solve, solve_many, sweep
 from kulman.plans.boards.exact import STATUSES
-from kulman.plans.linkages import strokes
+from kulman.plans.linkages import loads, strokes
 from kulman.scales.kept import Kept
 from kulman.scales.series import rows_of
 from kulman.tests.support.cases import some
@@ -83,6 +83,27 @@ def test_strokes_are_found_once_for_the_same_lengths_if_at_all(task: str, monkey
     for at in np.ndindex(states.shape):
         alone = solve_many(task, **{length: lengths[at[0]], speed: speeds[at[1]]}, names="M_bal")
         assert states["M_bal"][at].tobytes() == alone["M_bal"].tobytes()
+
+
+STROKES = ("scheme-01-compressor", "scheme-02-forging-press", "scheme-08-planer", "scheme-13-toggle-press")
+
+
+@pytest.mark.parametrize("spread", [0.1, 0.9])
+@pytest.mark.parametrize("task", some((*STROKES, "scheme-16-hay-baler"), 0, 2, 4))
+def test_strokes_found_together_are_those_found_one_by_one(task: str, spread: float) -> None:
+    mechanism, usual = load_task(task).mechanism, load_task(task).values()
+    random = np.random.default_rng(len(task)).uniform(1.0 - 0.5 * spread, 1.0 + 0.5 * spread, (60, len(usual)))
+    lengths = {name: usual[name] * random[:, k] for k, name in enumerate(usual) if name[:2] in ("l_", "x_", "y_")}
+
+    found = strokes.stroke_ends(mechanism, {**usual, **lengths})
+
+    together = np.isfinite(strokes._plain_strokes(mechanism, {**usual, **lengths}, 60)[0])
+    assert together.sum() > 20  # else nothing is shown
+    for k in range(60):
+        one = {name: float(column[k]) for name, column in lengths.items()}
+        travel = strokes.stroke_of(mechanism, {**usual, **one, "phi": 0.0})
+        ends = sorted(float(found[name][k]) for name in (loads.BEGIN, loads.END))
+        assert np.array_equal(ends, [travel.low, travel.high], equal_nan=True)
 
 
 def test_givens_broadcast_and_each_state_has_its_status() -> None:
