@@ -206,6 +206,9 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     elif solution.reason is None:
         if not files:
             click.echo(solution.table(language) if solution.drawing is None else solution.drawn(language))
+            if options["variant"] is None and len(solution.task.variants) > 1:
+                said = {"variant": solution.variant, "known": len(solution.task.variants)}
+                click.echo(messages(system_language())["variant-first"].format(**said), err=True)
         if note := solution.task.note_in(system_language()):
             click.echo(f"{messages(system_language())['list-note']}: {note}", err=True)
         console.warn(solution.warnings)

@@ -316,6 +316,11 @@ def test_formats_are_those_of_one_list(run: Run, folder: Path) -> None:
     assert run("sheet", TASK, "--only", "position", "--format", "a3-portrait", "-o", "x.svg")[0] == 0
 
 
+def test_who_names_no_variant_is_told_which_one_is_shown(run: Run) -> None:
+    assert run("solve", TASK)[2] == "this is variant 0 of 11; `-v` chooses another one\n"
+    assert run("solve", TASK, "-v", "0")[2] == run("solve", TASK, "--json")[2] == ""
+
+
 TABLES = (
     ("solve", TASK, "-o", "x.csv"),
     ("sweep", TASK, "-o", "x.svg", "-o", "x.CSV"),
@@ -377,7 +382,7 @@ def test_a_full_disk_is_one_line(arguments: list[str]) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell's way to close a stream")
 @pytest.mark.parametrize(
-    ("redirection", "task", "status"), [(">&-", TASK, 0), ("2>&-", "zzz", 2), ("2>/dev/full", "zzz", 2)]
+    ("redirection", "task", "status"), [(">&-", f"{TASK} -v 3", 0), ("2>&-", "zzz", 2), ("2>/dev/full", "zzz", 2)]
 )
 def test_a_stream_that_nobody_reads_changes_no_status(redirection: str, task: str, status: int) -> None:
     if "/dev/full" in redirection and not os.path.exists("/dev/full"):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from kulman import cli
-from kulman.scales.choices import SIZES
+from kulman.scales.choices import FORMATS
 from kulman.tests.support.commands import Run
 from kulman.variants.commands.helping import told
 from kulman.variants.shelf import GUIDES, bundled, summary
@@ -42,7 +42,7 @@ def offered(run: Run, monkeypatch: pytest.MonkeyPatch) -> Offered:
         ("kulman solve nau-slider-crank --lang uk -v e", ["example"]),
         ("kulman --lang ru batch madi-cam nau-slider-crank --variant V", []),
         ("kulman sheet madi-gear --only mesh", ["meshing"]),
-        ("kulman sheet madi-gear --format a", [*SIZES]),
+        ("kulman sheet madi-gear --format a", [*FORMATS]),
         ("kulman sheet madi-gear -o x", ["x.svg", "x.pdf", "x.png", "x.dxf", "x.html", "x.ggb"]),
         ("kulman sheet madi-gear -o x.p", ["x.pdf", "x.png"]),
         ("kulman sheet madi-gear -o ../my.sheets/", ["file,../my.sheets/"]),
