@@ -388,6 +388,26 @@ def test_link_whose_triangle_is_named_has_three_main_sides() -> None:
     assert thin == []
 
 
+@pytest.mark.parametrize(
+    ("task", "pairs"), [("nau-slider-crank", 0), ("scheme-17-sewing-machine", 3), ("scheme-09-shaper", 2)]
+)
+def test_forces_whose_arm_is_a_line_of_the_lever_have_right_angles_there(task: str, pairs: int) -> None:
+    """An examiner missed the mark at the balancing force, and at both forces of couples, on every sheet."""
+    view = Linkage(task, "3" if task.startswith("nau") else "1", format="A1").sheet["lever"]
+    squares = [s.points for s in view.strokes if s.role == "right-angle" and len(s.points) == 3]
+    corners = [one + other - middle for one, middle, other in squares]
+
+    def marked(arrow: Arrow) -> bool:
+        """Whether a right angle stands where the line of a force meets its arm."""
+        way = (arrow.tip - arrow.tail) / abs(arrow.tip - arrow.tail)
+        return any(abs(((at - arrow.tail) / way).imag) < 5.0 and abs(at - arrow.tail) < 60.0 for at in corners)
+
+    forces = [arrow for arrow in view.arrows if "F_bal" in arrow.name or (pairs and "couple" in arrow.name)]
+    assert len(forces) == 1 + 2 * pairs
+    assert all(map(marked, forces))
+    assert len(corners) >= 1 + 2 * pairs
+
+
 @pytest.mark.parametrize("variant", some(["5", "0", "2", "9"], 1))
 def test_the_travel_of_a_driver_that_slides_is_dimensioned_from_where_it_is_zero(variant: str) -> None:
     """The plan did not say where the driver stands: of a crank it dimensions phi."""

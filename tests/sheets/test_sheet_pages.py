@@ -357,7 +357,7 @@ def test_plans_are_as_large_as_the_paper_allows_and_in_proportion() -> None:
     assert every[0] > 90.0
     assert every[len(every) // 10] > 130.0  # nine of ten plans of velocities, of accelerations, the largest of forces
     assert every[len(every) // 4] > 150.0  # three of four
-    assert every[-1] < 325.0  # longer where the last page would be half empty
+    assert every[-1] < 330.0  # longer where points crowd, or the last page would be half empty
     ratios = sorted(max(v / a, a / v) for v, a in zip(longest["V"], longest["a"], strict=True))
     assert ratios[len(ratios) * 7 // 8] < 1.55  # what round scale factors allow
 

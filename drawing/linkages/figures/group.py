@@ -201,19 +201,19 @@ class Sketch:
         crossed = shapely.crosses(lines([a + way], [b - way]), _as_lines([*self._lying, *self._lying, *arms]))
         return int(crossed.sum())
 
-    def hang(self, name: str, at: complex, said: str = "") -> None:
+    def hang(self, name: str, at: complex, said: str = "") -> complex:
         """Draw the arrow of a force at a point, or beyond what stands there, and letter it; once.
 
-        It lies on that side of the point where it is clear of all on its own line. Where its letter has no room the
-        notes have what is `said`.
+        It lies on that side of the point where it is clear of all on its own line, which is returned as a direction, no
+        force being 0. Where its letter has no room the notes have what is `said`.
         """
         if name in self._hung or not self.scene.defined(name):
-            return
+            return 0j
         self._hung.append(name)
         e = self.scene.direction(name)
         if e == 0:
             self.zero.append(name)
-            return
+            return 0j
         near, far = self._free(at, e)
         self._lying.append((near, far))
         ray = unit(far - near)
@@ -223,6 +223,7 @@ class Sketch:
         self.canvas.add(Arrow(*((near, far) if abs(ray - e) < 1.0 else (far, near)), Pen.MAIN, name=name))
         # its letter stands beside its outer half
         self.canvas.label(self.scene.letter(name), (far - 0.55 * (far - near), far), clear=0.9, last=said)
+        return ray
 
     def _free(self, at: complex, e: complex) -> Stroke:
         """Return where an arrow along `e` lies at a point: its end there, and its outer one.

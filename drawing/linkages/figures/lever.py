@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ....plans.board import Step
 from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Line, Pen
+from ...symbols import right_angle, unit
 from ...view import View
 from ..reading import Edge
 from ..scene import Scene
@@ -19,6 +20,7 @@ from .plan import letter_marks
 
 ARMS = 8  # moments on a lever; where there are more, the arm of a couple is the line between its forces
 POLE = "lever.p"
+SQUARE = 2.0  # mm, the mark of a right angle
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 
 
@@ -75,11 +77,17 @@ def lever_view(scene: Scene) -> View:
         {m: _image(scene, m) for m in marks},
         _image(scene, POLE),
     )
+    sides = dict[str, complex]()
     for name, mark in hung:
         at = _image(scene, mark)
         canvas.part(name)
         sketch.bar(at, rays_of(at, strokes))
-        sketch.hang(name, at, scene.hung(scene.letter(name), f"velocity.{role(mark).of}"))
+        sides[name] = sketch.hang(name, at, scene.hung(scene.letter(name), f"velocity.{role(mark).of}"))
+    for name, mark, other in _along_lines(scene, hung):
+        at, to = _image(scene, mark), _image(scene, other)
+        if sides[name] and abs(to - at) > SQUARE:
+            canvas.part(name)
+            canvas.add(right_angle(at, unit(to - at), sides[name], SQUARE))
     moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in single if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
     alone = len(arms) > MANY
@@ -99,6 +107,15 @@ def lever_view(scene: Scene) -> View:
     turned = replace(scene.scales["lever"], symbol=scene.scales["velocity"].symbol)  # it is a plan of velocities
     heading = words["heading.lever"], words.scale(turned)
     return canvas.finish("lever", heading, (*(words[key] for key in said), *zeros(scene, [*sketch.zero, *gone])))
+
+
+def _along_lines(scene: Scene, hung: Sequence[tuple[str, str]]) -> Iterator[tuple[str, str, str]]:
+    """Go through the forces whose arm is a line of the lever itself: each, its mark, and the other end of the arm."""
+    for couple in couples_on_lever(scene).values():
+        marks = couple.marks
+        yield from zip(couple.forces, marks, marks[::-1], strict=True)
+    balance, mark = hung[-1]
+    yield balance, mark, POLE
 
 
 def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection[str]) -> dict[str, str]:
