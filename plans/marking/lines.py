@@ -69,11 +69,6 @@ class Drawn:
     by_hand: bool = False
 
     @property
-    def ends(self) -> Complex:
-        """The ends of all segments."""
-        return np.concatenate((self.tails, self.tips))
-
-    @property
     def turn(self) -> int | None:
         """By how many right angles the sheet is turned, 0 to 3, as most of what is written on it tells, if it does."""
         told = Counter[int]()
@@ -88,7 +83,7 @@ def side_by_side(pages: Iterable[Drawn]) -> Drawn:
     """Return the pages of a drawing as one, beside one another."""
     whole, *others = pages
     for page in others:
-        by = whole.ends.real.max() - page.ends.real.min() + APART
+        by = np.append(whole.tails, whole.tips).real.max() - np.append(page.tails, page.tips).real.min() + APART
         letters = (replace(letter, place=letter.place + by) for letter in page.letters)
         arrows = np.append(whole.arrows, page.arrows + len(whole.tails))
         tails, tips = np.append(whole.tails, page.tails + by), np.append(whole.tips, page.tips + by)

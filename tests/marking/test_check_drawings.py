@@ -200,9 +200,13 @@ def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:
     pytest.param(("plans-1", "plans-2"), 1, id="pages"),
     pytest.param(("plans-3", "plans-4"), 2, id="variants"),
     pytest.param(("plans-1", "other-2"), 2, id="two names"),
+    pytest.param(("AT 23-1", "AT 23-2"), 2, id="record books"),
 ])  # fmt: skip
 def test_drawings_numbered_as_pages_are_are_one_students(tmp_path: Path, names: tuple[str, str], students: int) -> None:
-    ready, key = asked("nau-slider-crank")
+    roster = tmp_path / "class.csv"
+    roster.write_text("student;record book;variant\nKoval;AT 23-1;0\nBondar;AT 23-2;0\n", encoding="utf-8")
+    (tmp_path / "works").mkdir()
+    ready, key = asked("nau-slider-crank", roster=roster)
     lines, texts = plans_of(key, key.key.paper.program, key.key.values)
     half = {
         name: [line for line in lines if (line[0].imag < 0.6 * APART) is under]
@@ -212,9 +216,9 @@ def test_drawings_numbered_as_pages_are_are_one_students(tmp_path: Path, names: 
         low = min(end.imag for line in page for end in line)
         moved = [(a - 1j * low, b - 1j * low) for a, b in page]
         own = [(at - 1j * low, text) for at, text in texts if (at.imag < 0.6 * APART) is (name == names[0])]
-        (tmp_path / f"{name}.dxf").write_bytes(as_dxf(moved, own))
+        (tmp_path / "works" / f"{name}.dxf").write_bytes(as_dxf(moved, own))
 
-    answers = ready.read(str(tmp_path))
+    answers = ready.read(str(tmp_path / "works"))
     first = ready.mark(answers[0]).marked
 
     assert len(answers) == students

@@ -44,7 +44,7 @@ from ..task import Task
 from .class_page import PAGE, ClassPage
 from .keyed import DATA, PLANS, asked_of, class_header, columns_of, data_text, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
-from .reading import Answers, answers_of, read_all, stem_of
+from .reading import Answers, answers_of, drawn_together, read_all, stem_of
 from .report import REPORTS, Report
 from .result import Result, class_rows, failed, moodle_rows, nothing, result_of
 from .wording import texts
@@ -131,6 +131,7 @@ class Check(Terms):
                 with suppress(KulmanError):  # whose data are none of the task: told where the student is marked
                     sheets.setdefault(sheet_id(self.request.task, entry.variant, entry.settings), []).append(entry)
         named = [self._named(one, sheets if often[one.source] > 1 else {}) for one in found]
+        named = [*drawn_together(named, self.entry_of)]
         return named if warn is None else [*self._once(named, warn)]
 
     def _once(self, found: Iterable[Answers], warn: Callable[[KulmanError], None]) -> Iterator[Answers]:
@@ -158,7 +159,7 @@ class Check(Terms):
         same = sheets.get(answers.about.get("sheet", "").upper(), ())
         stem = Path(answers.source).stem
         ways = stem, re.sub(r"^[0-9]{3}-", "", stem), stem_of(answers.source)
-        names = [" ".join(re.split(r"[\s_-]+", name)).strip() for name in ways]
+        names = [*(" ".join(re.split(r"[\s_-]+", name)).strip() for name in ways), *ways]
         known = (self.roster.find(Who(**{key: name})) for name in names for key in ("student", "book", "number"))
         entry = same[0] if len(same) == 1 else next(filter(None, known), None)
         if entry is None:

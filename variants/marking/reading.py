@@ -573,9 +573,9 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Warn | None) -
 
 
 def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
-    """Go through answers, pages of one student together: drawings, and pictures, with names alike but for a number."""
+    """Go through answers, pages of one student that are on pictures with names alike but for a number together."""
     before: Answers | None = None
-    for one in _drawn_together([*found]):
+    for one in found:
         if before is not None and before.photos and one.photos and stem_of(before.source) == stem_of(one.source):
             groups = together([*before.photos, *one.photos])
             if len(groups) == 1:
@@ -588,14 +588,15 @@ def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
         yield before
 
 
-def _drawn_together(found: Sequence[Answers]) -> Iterator[Answers]:
-    """Go through answers, drawings that are numbered as pages are, from 1 on, as one whose pages lie side by side."""
-    pages, first = dict[tuple[Path, str], dict[int, Answers]](), dict[int, list[Answers]]()
+def drawn_together(found: Sequence[Answers], owner: Callable[[Answers], object]) -> Iterator[Answers]:
+    """Go through answers, drawings of one owner that are numbered as pages are, from 1 on, as one, side by side."""
+    pages, first = dict[tuple[Path, str, int], dict[int, Answers]](), dict[int, list[Answers]]()
     for one in found:
         path = Path(one.source)
         numbered = _PAGE.fullmatch(path.stem)
         if one.drawn is not None and numbered:
-            pages.setdefault((path.with_name(numbered[1]), path.suffix), {}).setdefault(int(numbered[2]), one)
+            alike = path.with_name(numbered[1]), path.suffix, id(owner(one))
+            pages.setdefault(alike, {}).setdefault(int(numbered[2]), one)
     for several in pages.values():
         if 1 < len(several) == max(several) <= MOST_PAGES:
             of_one = [several[number] for number in sorted(several)]
