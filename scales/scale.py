@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from .errors import InputError
 from .numbers import quote, split_number
-from .units import SYMBOLS, Unit, UnitName, parse, unit
+from .units import SYMBOLS, USUAL, Unit, UnitName, parse, unit
 
 # GOST 2.302 and its reciprocals give the same customary mantissas
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
@@ -268,7 +268,7 @@ class Display:
     paper: str = "mm"
     size: str = ""
     angle: str = RADIAN
-    stress: str = "Pa"
+    stress: str = USUAL["Pa"]
 
     def unit(self, si: str) -> str:
         """Return the unit in which a value of an SI unit is shown.

@@ -233,3 +233,11 @@ def test_a_sweep_of_a_hoist_has_no_drawing_no_points_and_no_ends(tmp_path: Path,
         status, _, err = run("sweep", TASK, *option)
         assert status == 2
         assert option[0] in err
+
+
+def test_stresses_are_shown_in_megapascals_and_data_are_in_si() -> None:
+    solution = solve("karpenko-hoist", lang="en")
+    row = dict(zip(solution.columns, next(row for row in solution.rows if row[0] == "sigma_max"), strict=True))
+
+    assert (row["value"], row["unit"]) == (solution["sigma_max"].value / 1e6, "MPa")
+    assert solution["sigma_max"].unit == solution.to_json()["quantities"]["sigma_max"]["unit"] == "Pa"

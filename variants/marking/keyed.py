@@ -26,8 +26,6 @@ from ...plans.quantities import unit_of
 from ...scales.errors import LANGUAGES, InputError, KulmanError, as_one
 from ...scales.names import all_known, latin, unknown
 from ...scales.numbers import SHOWN, quote, split_number
-from ...scales.scale import Display
-from ...scales.units import USUAL
 from ..case import Case, Request, Settings, kind_of
 from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
 from ..reader import syntax_fault
@@ -468,12 +466,7 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
     words, every = [replace(solution.words, language=language) for language in LANGUAGES], (*quantities, *scales)
     shown = [(folded(text), name) for name in every for text in (name, *(of.symbol(name) for of in words))]
     often = Counter(text for text, _ in {*shown})
-    return Asked(quantities, scales, _display_of(solution), symbols={t: name for t, name in shown if often[t] == 1})
-
-
-def _display_of(solution: Solution) -> Display:
-    """Return the units in which a solution is asked for and marked: those of the task, stresses as people know them."""
-    return replace(solution.words.display, stress=USUAL["Pa"])
+    return Asked(quantities, scales, solution.words.display, symbols={t: name for t, name in shown if often[t] == 1})
 
 
 def fullest(request: Request) -> str:
@@ -509,7 +502,7 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     unit_of = {name: quantity.unit for name, quantity in solution.quantities.items()}
     key = answer_key(paper, rubric.tolerance, firm, units=unit_of.__getitem__, drawn=limits)
     key = key.or_else(solution.solved.values)
-    words = kind.lettered(replace(solution.words, display=_display_of(solution)), solution.solved)
+    words = kind.lettered(solution.words, solution.solved)
     parts = tuple(_sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)
     own = sheet_id(request.task, solution.variant, request.settings)
