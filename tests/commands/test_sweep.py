@@ -228,3 +228,13 @@ def test_writing_a_long_table_is_told_of_part_by_part_and_a_short_one_is_not(tmp
             told.clear()
     finally:
         tables.watching.reset(token)
+
+
+def test_of_parts_that_cannot_be_reached_from_one_another_it_is_told_whose_the_stroke_is(run: Run) -> None:
+    told = "stroke in the part with the position of the task"
+    _, parted, _ = run("sweep", TASK, "--set", "l_OA=130", "--only", "velocity")
+    _, whole, _ = run("sweep", TASK, "--only", "velocity")
+
+    assert f"slider 3: {told} 0.0307071 m" in parted
+    assert "dead positions: phi = 0° (s_3 = 0.005 m); phi = 180° (s_3 = −0.255 m)" in parted
+    assert told not in whole

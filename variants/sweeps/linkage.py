@@ -312,7 +312,9 @@ def _output(cycle: Cycle, motion: OutputMotion, words: Words) -> Iterable[str]:
     if motion.travel is None:
         yield f"{kind}: {words['sweep.round']}"
         return
-    yield f"{kind}: {words['sweep.stroke']} {_amount(words, motion.travel.length, output.unit)}"
+    parted = len(cycle.reach.around(cycle.drive.start)) < len(cycle.reach.stretches)  # others cannot be reached from it
+    stroke = words["sweep.stroke_here" if parted else "sweep.stroke"]
+    yield f"{kind}: {stroke} {_amount(words, motion.travel.length, output.unit)}"
     if motion.dead:
         places = ((_at(cycle, words, spot.angle), _amount(words, spot.place, output.unit)) for spot in motion.dead)
         yield f"  {words['sweep.dead']}: {'; '.join(f'{at} ({name} = {place})' for at, place in places)}"
