@@ -139,9 +139,7 @@ def list_tasks(words: tuple[str, ...], as_json: bool, file: str | None, lang: st
     from .variants.shelf import bundled, called
 
     if file is not None:
-        if words:
-            raise InputError("check-one", text=quote(words[0]))
-        return _check(file, as_json)
+        return _check((file, *words), as_json)
     tasks = [*called(" ".join(words))]
     if not tasks:
         raise unknown("bundled-unknown", " ".join(words), bundled())
@@ -159,26 +157,31 @@ def list_tasks(words: tuple[str, ...], as_json: bool, file: str | None, lang: st
     return 0
 
 
-def _check(file: str, as_json: bool) -> int:
-    """Show all faults of a task file, one a line, then what is worth knowing of its variants."""
+def _check(files: Sequence[str], as_json: bool) -> int:
+    """Show all faults of task files, one a line, then what is worth knowing of their variants."""
     from .variants.reader import check_file
 
-    language = system_language()
-    faults, remarks = check_file(file)
+    language, found, bad = system_language(), list[dict[str, Any]](), list[KulmanError]()
     words = messages(language)
-    if as_json:
+    for file in dict.fromkeys(files):
+        try:
+            faults, remarks = check_file(file)
+        except InputError as error:  # one that there is not is no reason not to check the others
+            bad.append(error)
+            continue
         errors, told = ([{"key": e.key, "message": e.text(language)} for e in listed] for listed in (faults, remarks))
-        console.print_json({"file": file, "ok": not faults, "errors": errors, "remarks": told})
-    else:
-        for fault in faults:
-            click.echo(fault.text(language))
-        for remark in remarks:
-            click.echo(words["check-remark"].format(text=remark.text(language)))
-    if faults:
-        return console.refuse(InputError("check-bad", file=quote(file, SHOWN), n=len(faults)))
-    if not as_json:
-        click.echo(words["check-remarks" if remarks else "check-ok"].format(file=file, n=len(remarks)))
-    return 0
+        found.append({"file": file, "ok": not faults, "errors": errors, "remarks": told})
+        if faults:
+            bad.append(InputError("check-bad", file=quote(file, SHOWN), n=len(faults)))
+        if not as_json:
+            lines = [one["message"] for one in errors]
+            lines += [words["check-remark"].format(text=one["message"]) for one in told]
+            said = words["check-remarks" if remarks else "check-ok"].format(file=file, n=len(remarks))
+            for line in lines if faults else [*lines, said]:
+                click.echo(line)
+    if as_json and found:
+        console.print_json(found[0] if len(files) == 1 else {"files": found})
+    return max(map(console.refuse, bad), default=0)
 
 
 @console.command(

@@ -313,7 +313,6 @@ ARGUMENTS = {
     "option with one dash": (["solve", TASK, "-set", "phi=3"], "unknown option -set; did you mean --set?"),
     "unknown letter": (["solve", TASK, "-z"], "unknown option -z; see kulman solve --help"),
     "several givens at once": (["solve", TASK, "--set", "phi=60°, n_1=90"], "say --set again for 'n_1=90'"),
-    "several files to check": (["list", "--check", "a.toml", "b.toml"], "'b.toml' is too many"),
     "word of one task's title": (["solve", "щокова"], "did you mean scheme-14-jaw-crusher?"),
     "word of many titles": (["solve", "механізм"], "the tasks are: "),
     "no task": (["solve"], "TASK"),

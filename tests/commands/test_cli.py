@@ -123,13 +123,11 @@ def test_a_list_of_words_has_the_tasks_that_are_called_so_in_any_language(
         assert [task["id"] for task in listed] == tasks == [x.split()[0] for x in out.splitlines() if x[:1] != " "]
 
 
-def test_words_of_no_task_are_refused_and_so_are_words_beside_a_file_to_be_checked(run: Run) -> None:
+def test_words_of_no_task_are_refused(run: Run) -> None:
     status, out, err = run("list", "lathe", "--lang", "en")
 
     assert (status, out) == (2, "")
     assert err.startswith("there is no bundled task 'lathe'; there are: ")
-    said = "one file at a time is checked; 'shaper' is too many\n"
-    assert run("list", "shaper", "--check", TASK, "--lang", "en") == (2, "", said)
 
 
 def test_a_check_shows_every_fault_of_a_file(folder: Path, run: Run) -> None:
@@ -149,6 +147,12 @@ def test_a_check_shows_every_fault_of_a_file(folder: Path, run: Run) -> None:
     assert run("list", "--check", "madi-gear") == (0, "madi-gear: no faults\n", "")
     good = json.loads(run("list", "--check", "good.toml", "--json")[1])
     assert good == {"file": "good.toml", "ok": True, "errors": [], "remarks": []}
+
+    several = "list", "--check", "bad.toml", "none.toml", "good.toml"
+    status, both, err = run(*several)
+    assert (status, both) == (2, out + "good.toml: no faults\n")
+    assert [line.partition(": ")[0] for line in err.splitlines()] == ["bad.toml", "none.toml"]
+    assert json.loads(run(*several, "--json")[1]) == {"files": [data, good]}
 
 
 def test_plans_and_scale_factors_are_those_asked_for(run: Run) -> None:
