@@ -326,6 +326,8 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     from .variants.charts.charts import chart as measured
 
     language = console.of_documents(options.pop("lang"), bool(files))
+    if options["chart"]:
+        options["chart"] = helping.as_explained("chart", "--chart", options["chart"])
     with console.progress() as advance:
         found = measured(task, set=settings, lang=language, advance=advance, **options)
     console.hand_over(found, files, as_json)

@@ -320,6 +320,17 @@ def test_formats_are_those_of_one_list(run: Run, folder: Path) -> None:
     assert run("sheet", TASK, "--only", "position", "--format", "a3-portrait", "-o", "x.svg")[0] == 0
 
 
+def test_charts_are_named_as_help_explains_them(run: Run) -> None:
+    chart = "chart", "scheme-11-slotter", "--positions", "4", "--chart"
+
+    shown = run(*chart, "stability,depth")
+
+    assert shown[0] == 0
+    for names in ("стійкість,глибина", "Устойчивость, глубина модели"):
+        assert run(*chart, names) == shown
+    assert "unknown chart 'ширина'; known are: accuracy" in run(*chart, "ширина")[2]
+
+
 def test_who_names_no_variant_is_told_which_one_is_shown(run: Run) -> None:
     assert run("solve", TASK)[2] == "this is variant 0 of 11; `-v` chooses another one\n"
     assert run("solve", TASK, "-v", "0")[2] == run("solve", TASK, "--json")[2] == ""

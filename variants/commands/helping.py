@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ...scales.choices import HANDS
-from ...scales.errors import KulmanError, system_language
+from ...scales.errors import LANGUAGES, KulmanError, system_language
 from ...scales.names import unknown
 from ...scales.packaged import packaged
 
@@ -121,6 +121,7 @@ def topics(ctx: click.Context) -> Mapping[str, str]:
     return guides(system_language())
 
 
+_EXPLAINED = re.compile(r"([a-z]+) \(([^)]+)\)")  # a value with what it means
 _PLACE = re.compile(r"[A-Z]{2,}")  # what stands for a word of the user: FILE, NAME=VALUE; not N, not A4
 
 
@@ -134,6 +135,13 @@ def told(command: str, key: str, language: str) -> str:
     whole = texts(language)
     text: str = whole[command][key] if key in whole[command] else whole["shared"][key]
     return text.format(hands=", ".join(HANDS)).strip()
+
+
+def as_explained(command: str, option: str, said: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of an option's values, also where one is said in the words behind it in any help: глибина."""
+    help_of = " ".join(" ".join(told(command, option, language).split()) for language in LANGUAGES)
+    names = {word: name for name, words in _EXPLAINED.findall(help_of) for word in (words, words.split()[0])}
+    return tuple(names.get(one.strip().lower(), one.strip()) for several in said for one in several.split(","))
 
 
 def place(param: click.Parameter) -> str:
