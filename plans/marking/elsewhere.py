@@ -21,8 +21,8 @@ from .lines import Complex, Indices
 from .ways import Shape
 
 ANCHORS = 24  # ways to lay a plan of which it is seen how its lines lead on
-MOVED = 0.5  # part of the longest vector by which a point may be elsewhere
-LACKS = 0.2  # part of the longest vector, what it costs that a line lacks, or goes on beyond its point
+MOVED = 0.5  # part of the longest line that leads to a point by which it may be elsewhere
+LACKS = 0.2  # part of it, what it costs that a line lacks, or goes on beyond its point
 
 
 def elsewhere(laying: Laying, shape: Shape, turn: float) -> Fit | None:
@@ -100,7 +100,8 @@ class _Led:
 
     def _met(self, nodes: Indices, mark: int, ends: Indices, wanted: Complex) -> Iterator[tuple[float, int]]:
         """Go through the nodes where lines from several ends meet, with what each costs."""
-        at, lines, longest = self.laying.lines.nodes, self.laying.lines, self.shape.longest * abs(self.factor)
+        at, lines = self.laying.lines.nodes, self.laying.lines
+        longest = float(np.abs(at[ends] - wanted).max())  # of its lines
         met = Counter(node for end in ends.tolist() for node in lines.joined_to(end).tolist())
         for node, count in met.items():
             place = complex(at[node])

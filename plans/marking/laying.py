@@ -439,7 +439,7 @@ class Laying:
         found = dict[str, list[tuple[complex, float]]]()
         for letter in self.drawn.letters:
             text = "".join(filter(str.isalnum, latin(letter.text)))
-            if len(text) <= LETTERS and text == text.lower():
+            if 0 < len(text) <= LETTERS and text == text.lower():
                 found.setdefault(text, []).append((letter.place, letter.height))
         return found
 
@@ -466,7 +466,7 @@ class Laying:
         if not fit.lines or 2.0 * others > fit.lines:  # of points alone no two plans have lines together
             return False
         told = float(fit.senses @ fit.weights) / fit.lines, fit.letters / max(named, 1)
-        if max(told) >= POINTED_OUT or (expected and max(told) > 0.0):
+        if max(told) >= POINTED_OUT or (expected and ((fit.senses > 0.0).any() or fit.letters > 0)):
             return True
         spans = fit.shape.spans[fit.there] * fit.factor
         longest = complex(spans[np.abs(spans).argmax()])

@@ -309,6 +309,20 @@ def test_nothing_is_drawn_on_a_blank(tmp_path: Path, task: str, variant: str, on
     assert error.value.key == "drawing-unknown"
 
 
+@pytest.mark.parametrize(("task", "variant"), some([
+    pytest.param("scheme-19-scotch-yoke", "4", id="forces along one line, whose arrowheads meet"),
+    pytest.param("scheme-16-hay-baler", "1", id="vectors too short to be found are not found elsewhere"),
+], 0))  # fmt: skip
+def test_nothing_is_wrong_on_a_sheet_of_kulmans(tmp_path: Path, task: str, variant: str) -> None:
+    file = tmp_path / "whole.pdf"
+    sheet(task, variant).save(file)
+
+    found = marked(check(task, variant), file)
+
+    assert {line.name for line in found.lines if line.verdict.faulty} == set()
+    assert len(verdicts(found)) >= 0.9 * len(found.lines)
+
+
 SOME_PLANS = [
     ("nau-slider-crank", "3"), ("scheme-14-jaw-crusher", "1"), ("scheme-11-slotter", "1"),
     pytest.param("scheme-02-forging-press", "1", id="vectors over one another"),
