@@ -311,13 +311,14 @@ def test_nothing_is_drawn_on_a_blank(tmp_path: Path, task: str, variant: str, on
 
 @pytest.mark.parametrize(("task", "variant"), some([
     pytest.param("scheme-19-scotch-yoke", "4", id="forces along one line, whose arrowheads meet"),
+    pytest.param("scheme-02-forging-press", "2", id="the scale factor of a detail is nearest to a plan"),
     pytest.param("scheme-16-hay-baler", "1", id="vectors too short to be found are not found elsewhere"),
-], 0))  # fmt: skip
+], 0, 1))  # fmt: skip
 def test_nothing_is_wrong_on_a_sheet_of_kulmans(tmp_path: Path, task: str, variant: str) -> None:
     file = tmp_path / "whole.pdf"
-    sheet(task, variant).save(file)
+    sheet(task, variant, lang="uk").save(file)
 
-    found = marked(check(task, variant), file)
+    found = marked(check(task, variant, lang="uk"), file)
 
     assert {line.name for line in found.lines if line.verdict.faulty} == set()
     assert len(verdicts(found)) >= 0.9 * len(found.lines)

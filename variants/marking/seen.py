@@ -153,7 +153,7 @@ def _told(drawn: Drawn, key: Keyed) -> Told:
 def _beside(plan: str, told: Told, found: Recognised) -> float | None:
     """Return the scale factor that is written for a plan: of several the nearest to its pole, if to no other's.
 
-    Those that do not fit are of a detail where one does.
+    Those that do not fit are of a detail where one does: larger ones, also where it stands by another plan.
     """
     own = found.plans[plan]
     near = [
@@ -165,6 +165,8 @@ def _beside(plan: str, told: Told, found: Recognised) -> float | None:
             if one in told[name]
         )
     ]
+    if near and all(mu.nearest(own.mu) < (1.0 - LIKE) * own.mu for _, mu in near):
+        near += [one for one in told[plan] if abs(one[1].nearest(own.mu) - own.mu) <= LIKE * own.mu]
     far = [(abs(at - own.pole), mu.nearest(own.mu)) for at, mu in near]
     return min([(abs(mu - own.mu) > LIKE * own.mu, away, mu) for away, mu in far])[2] if far else None
 
