@@ -312,8 +312,9 @@ def test_nothing_is_drawn_on_a_blank(tmp_path: Path, task: str, variant: str, on
 @pytest.mark.parametrize(("task", "variant"), some([
     pytest.param("scheme-19-scotch-yoke", "4", id="forces along one line, whose arrowheads meet"),
     pytest.param("scheme-02-forging-press", "2", id="the scale factor of a detail is nearest to a plan"),
+    pytest.param("scheme-01-compressor", "2", id="that of a diagram is"),
     pytest.param("scheme-16-hay-baler", "1", id="vectors too short to be found are not found elsewhere"),
-], 0, 1))  # fmt: skip
+], 0, 1, 2))  # fmt: skip
 def test_nothing_is_wrong_on_a_sheet_of_kulmans(tmp_path: Path, task: str, variant: str) -> None:
     file = tmp_path / "whole.pdf"
     sheet(task, variant, lang="uk").save(file)

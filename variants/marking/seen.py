@@ -153,7 +153,8 @@ def _told(drawn: Drawn, key: Keyed) -> Told:
 def _beside(plan: str, told: Told, found: Recognised) -> float | None:
     """Return the scale factor that is written for a plan: of several the nearest to its pole, if to no other's.
 
-    Those that do not fit are of a detail where one does: larger ones, also where it stands by another plan.
+    Those that do not fit are of a detail or a diagram where one does, also one that stands by another plan: if it is
+    nearer than they, or all of them are of larger drawings, as details are.
     """
     own = found.plans[plan]
     near = [
@@ -165,8 +166,10 @@ def _beside(plan: str, told: Told, found: Recognised) -> float | None:
             if one in told[name]
         )
     ]
-    if near and all(mu.nearest(own.mu) < (1.0 - LIKE) * own.mu for _, mu in near):
-        near += [one for one in told[plan] if abs(one[1].nearest(own.mu) - own.mu) <= LIKE * own.mu]
+    detail = all(mu.nearest(own.mu) < (1.0 - LIKE) * own.mu for _, mu in near)
+    within = math.inf if detail else min(abs(at - own.pole) for at, _ in near)
+    fitting = [one for one in told[plan] if abs(one[1].nearest(own.mu) - own.mu) <= LIKE * own.mu]
+    near += [one for one in fitting if near and abs(one[0] - own.pole) < within]
     far = [(abs(at - own.pole), mu.nearest(own.mu)) for at, mu in near]
     return min([(abs(mu - own.mu) > LIKE * own.mu, away, mu) for away, mu in far])[2] if far else None
 
