@@ -252,13 +252,16 @@ class _Search:
 
     def _evident(self, fit: Fit, expected: bool) -> bool:
         """Whether a plan is drawn and not found in other lines; it may be `expected` to be so, at its usual size."""
-        usual = self.laying.expected(fit.shape.plan)
-        return self.laying.evident(fit, expected and (not usual or abs(fit.mu / usual - 1.0) < SAME_MU))
+        return self.laying.evident(fit, expected and (self._usual(fit) or not self.laying.expected(fit.shape.plan)))
 
     def _by_size(self, fit: Fit) -> bool:
         """Whether a plan is of its usual size, or of so many lines that it may have any."""
+        return fit.lines >= MANY_LINES or self._usual(fit)
+
+    def _usual(self, fit: Fit) -> bool:
+        """Whether a plan is of its usual size."""
         usual = self.laying.expected(fit.shape.plan)
-        return fit.lines >= MANY_LINES or (bool(usual) and abs(fit.mu / usual - 1.0) < SAME_MU)
+        return bool(usual) and abs(fit.mu / usual - 1.0) < SAME_MU
 
     def _at(self, turn: float) -> tuple[dict[str, Fit], float, int]:
         """Return where each plan lies on a sheet turned so, what all are worth, and which mistake is in them."""
@@ -278,7 +281,8 @@ class _Search:
             usual = next((fit for fit in ways if fit.shape.explained(self.common)), ways[0])
             best = max(filter(self._by_size, ways), key=lambda fit: fit.worth, default=usual)
             chosen = best if best.worth > usual.worth + OTHER else usual
-            by_chance = self.laying.arrows and not (self._by_size(chosen) or chosen.senses @ chosen.weights > 0.0)
+            sized = self._by_size(chosen) and (1.0 - chosen.quality <= ALL or self._usual(chosen))
+            by_chance = self.laying.arrows and not (sized or chosen.senses @ chosen.weights > 0.0)
             mistaken = {number for fit in fits.values() if not fit.shape.right for number in fit.shape.broken}
             expected = chosen.shape.right or not mistaken.isdisjoint(chosen.shape.broken)
             if chosen.quality >= ENOUGH and not by_chance and self._evident(chosen, expected):

@@ -326,7 +326,7 @@ def test_nothing_is_wrong_on_a_sheet_of_kulmans(tmp_path: Path, task: str, varia
 
 
 SOME_PLANS = [
-    ("nau-slider-crank", "3"), ("scheme-14-jaw-crusher", "1"), ("scheme-11-slotter", "1"),
+    ("nau-slider-crank", "3"), ("scheme-14-jaw-crusher", "1"), ("scheme-04-v-engine", "3"),
     pytest.param("scheme-02-forging-press", "1", id="vectors over one another"),
 ]  # fmt: skip
 
