@@ -36,6 +36,7 @@ MANY_LINES = 5.0  # of a plan that is not found by chance, of whatever size
 EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
 OTHER = 2.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
+MUCH = 0.2  # part of a plan that may lack where a known mistake explains it: else its points may be elsewhere
 ENOUGH = 0.7  # part of a plan that must be there
 TURNS = tuple(math.pi / 2.0 * quarter for quarter in range(4))
 
@@ -312,7 +313,7 @@ class _Search:
         """Take plans that no known mistake explains, and what is not yet found of right ones, with points elsewhere."""
         for plan, right in self.plans.items():
             fit = fits.get(plan)
-            if right.flat or (fit is not None and (not fit.shape.right or 1.0 - fit.quality <= ALL)):
+            if right.flat or (fit is not None and 1.0 - fit.quality <= (ALL if fit.shape.right else MUCH)):
                 continue
             if fit is not None:
                 self.laying.leave(fit)

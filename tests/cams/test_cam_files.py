@@ -183,7 +183,7 @@ def test_a_turn_is_as_long_for_the_checks_as_for_the_motion(excess: float, whole
     [
         ("--set u_fall=0", "u_fall: '0': must be greater than 0 and less than 1"),
         ("--set law_fall=sine", "task madi-cam does not state law_fall, which a task of this kind may have: "),
-        ("--set Rroller=8", "madi-cam has no given 'Rroller'; did you mean 'R_roller'?"),
+        ("--set R_rolle=8", "madi-cam has no given 'R_rolle'; did you mean 'R_roller'?"),
         ("--scale OA=80", "'OA': no segment chooses a scale factor here; expected one of: mu_l, mu_s_ds, mu_s_d2s"),
         ("--scale mu_s=1", "mu_s follows from the lengths on paper that are given; chosen may be: mu_l, mu_s_ds, "),
         ("--only velocity", "unknown plan 'velocity'; known are: diagrams, sizes, profile, pressure\n"),

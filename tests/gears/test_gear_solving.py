@@ -352,7 +352,7 @@ def test_numbers_of_the_standard_rack_need_not_be_given_and_may_be_set() -> None
 )
 def test_a_variant_may_give_the_centre_distance_or_the_sum_in_the_place_of_shifts(given: str, shifts: int) -> None:
     solution = solve(task_of(edited((BOTH, given))))
-    found = [name for name in ("x_1", "x_2") if name in solution]
+    found = [name for name in ("x_1", "x_2") if name in solution.quantities]
     assert len(found) == shifts
     for line in given.split("\n")[:-1]:
         name, value = line.split(" = ")

@@ -42,7 +42,7 @@ class Stack:
 
 
 def stack_of(
-    folder: Path, students: dict[str, tuple[str, str]], nameless: int = 1, blurred: int = 1, seed: int = 16
+    folder: Path, students: dict[str, tuple[str, str]], nameless: int = 1, blurred: int = 1, seed: int = 20
 ) -> Stack:
     """Draw and photograph a page of each of the students; the last ones have forgotten their names.
 

@@ -171,7 +171,7 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
                     ruled(mm, paper)
                     or (symbol in (*carried, *laid) and ruled(mm, paper, math.inf))
                     or (symbol in laid and finer(*row[1:4], paper))
-                    or (symbol in laid and printed.isdigit() and ruled(mm[:-1], paper, math.inf))
+                    or (symbol in (*carried, *laid) and ruled(mm[:-1], paper, math.inf))  # no other gives its number
                 ):
                     yield f"{symbol}: no ruler reads {mm} mm"
             near = max(

@@ -154,7 +154,7 @@ def _beside(plan: str, told: Told, found: Recognised) -> float | None:
     """Return the scale factor that is written for a plan: of several the nearest to its pole, if to no other's.
 
     Those that do not fit are of a detail or a diagram where one does, also one that stands by another plan: if it is
-    nearer than they, or all of them are of larger drawings, as details are.
+    nearer than they, or the nearest of them is of a larger drawing, as details are.
     """
     own = found.plans[plan]
     near = [
@@ -166,8 +166,8 @@ def _beside(plan: str, told: Told, found: Recognised) -> float | None:
             if one in told[name]
         )
     ]
-    detail = all(mu.nearest(own.mu) < (1.0 - LIKE) * own.mu for _, mu in near)
-    within = math.inf if detail else min(abs(at - own.pole) for at, _ in near)
+    away, mu = min(((abs(at - own.pole), mu.nearest(own.mu)) for at, mu in near), default=(0.0, math.inf))
+    within = math.inf if mu < (1.0 - LIKE) * own.mu else away
     fitting = [one for one in told[plan] if abs(one[1].nearest(own.mu) - own.mu) <= LIKE * own.mu]
     near += [one for one in fitting if near and abs(one[0] - own.pole) < within]
     far = [(abs(at - own.pole), mu.nearest(own.mu)) for at, mu in near]
