@@ -395,8 +395,13 @@ class Sketch:
     def finish(self, name: str, heading: tuple[str, ...]) -> View:
         """Letter the links, and close the view; it says that arrows have no scale, and what is zero."""
         letter_links(self.canvas, self.scene, self.figures)
-        said = (self.scene.words[key] for key in ("said.arrows", *["said.arms"] * self.alone))
+        said = (self.scene.words[key] for key in (*self.said, *["said.arms"] * self.alone))
         return self.canvas.finish(name, heading, (*said, *zeros(self.scene, self.zero)))
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """Keys of what is said of the arrows: that they have no scale, and what those beside their lines mean."""
+        return ("said.arrows", *["said.aside"] * bool(self._led))
 
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:

@@ -103,7 +103,7 @@ def lever_view(scene: Scene) -> View:
     ways = {m: f"{letters['lever.p']}{letters[m]} = {scene.length(abs(places[m] - pole))}" for m in marks[1:]}
     letter_marks(canvas, scene, letters, places, (POLE,), ways)
     gone = [_arm_of(name) for name, _ in single if scene.direction(name) != 0]
-    said = ("said.lever", "said.arrows", *["said.arms"] * alone, *["said.couples"] * bool(paired))
+    said = ("said.lever", *sketch.said, *["said.arms"] * alone, *["said.couples"] * bool(paired))
     turned = replace(scene.scales["lever"], symbol=scene.scales["velocity"].symbol)  # it is a plan of velocities
     heading = words["heading.lever"], words.scale(turned)
     return canvas.finish("lever", heading, (*(words[key] for key in said), *zeros(scene, [*sketch.zero, *gone])))
