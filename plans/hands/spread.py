@@ -192,7 +192,7 @@ class _Sensitivities:
         if isinstance(exact, complex) and exact:
             misses = dot(misses, exact * (1.0 / abs(exact)))
         square, open = np.sum(np.abs(misses) ** 2), self.ends @ misses
-        return float(np.sqrt(max(square - np.sum(open * self._weighed(open)), 0.0)))
+        return float(np.sqrt(max(square - np.vdot(open, self._weighed(open)).real, 0.0)))
 
     def missed(self, values: Mapping[str, Any]) -> Array:
         """Return how far curves miss their axis on drawings, as `ends` has it."""

@@ -82,7 +82,8 @@ def test_the_help_of_every_command_shows_examples_that_run(
         assert not command or arguments[0] == command
         status, out, err = run(*arguments)
         assert status == 0
-        assert all(re.search("`kulman solve .*--format A", line) for line in err.splitlines())  # other scale factors
+        # other scale factors, the language of a table
+        assert all(re.search("`kulman solve .*--format A|`--lang ", line) for line in err.splitlines())
         assert out
 
 

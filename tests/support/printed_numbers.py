@@ -79,11 +79,21 @@ def ruled(mm: str, paper: str, long: float = 100.0) -> bool:
     return len(re.split("[.,]", mm)[-1]) == (1 if value(mm) * (10 if centimetres else 1) >= long else 2) + centimetres
 
 
-def finer(mm: str, mu: str, printed: str, paper: str) -> bool:
-    """Whether a segment has one decimal more than a ruler shows, since that leaves its value less than three digits."""
+def shorter_ones(mm: str) -> set[float]:
+    """Return what a segment is with one decimal less, at a tie both."""
     shorter, last = mm[:-1].rstrip(".,"), mm[-1]
     unit = 10.0 ** -len(re.split("[.,]", f"{shorter}.")[1])
-    near = {value(shorter) + unit * up for up in ((0,) if last < "5" else (1,) if last > "5" else (0, 1))}
+    return {value(shorter) + unit * up for up in ((0,) if last < "5" else (1,) if last > "5" else (0, 1))}
+
+
+def told_shorter(mm: str, mu: str, printed: str) -> bool:
+    """Whether a segment with one decimal less gives its value, too."""
+    return all(recomputes(one * value(mu), printed) for one in shorter_ones(mm))
+
+
+def finer(mm: str, mu: str, printed: str, paper: str) -> bool:
+    """Whether a segment has one decimal more than a ruler shows, since that leaves its value less than three digits."""
+    shorter, near = mm[:-1].rstrip(".,"), shorter_ones(mm)
     half = 0.499 * 10.0 ** -len(re.split("[.,]", f"{printed}.")[1])  # what is printed was one of these
     exact = {value(printed) + half, value(printed) - half}
     return ruled(shorter, paper) and any(f"{one * value(mu):.3g}" != f"{of:.3g}" for one in near for of in exact)
@@ -116,7 +126,9 @@ def read_to(row: Sequence[str], calculated: bool = False) -> float:
     if mm == "–":
         return near * (10.0 if calculated else 1.0)
     if calculated:
-        return near + 2.0 * half_digit(mm) * value(mu) * (10.0 if value(mm) >= 100.0 and ruled(mm, "mm", 1e9) else 1.0)
+        return near + 2.0 * max(half_digit(mm), 0.005) * value(mu) * (
+            10.0 if value(mm) >= 100.0 and ruled(mm, "mm", 1e9) else 1.0
+        )
     return max(near, half_digit(mm) * value(mu) + near * (value(printed) > 100.0))  # in units
 
 
@@ -171,7 +183,9 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
                     ruled(mm, paper)
                     or (symbol in (*carried, *laid) and ruled(mm, paper, math.inf))
                     or (symbol in laid and finer(*row[1:4], paper))
-                    or (symbol in (*carried, *laid) and ruled(mm[:-1], paper, math.inf))  # no other gives its number
+                    or (
+                        any(ruled(mm[:-1], paper, of) for of in (100.0, math.inf)) and not told_shorter(mm, mu, printed)
+                    )
                 ):
                     yield f"{symbol}: no ruler reads {mm} mm"
             near = max(
