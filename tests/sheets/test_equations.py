@@ -41,6 +41,7 @@ from kulman.tests.support.printed_numbers import (
     half_digit,
     reactions,
     recomputes,
+    table,
     value,
 )
 from kulman.tests.support.printed_numbers import told as told_of
@@ -426,3 +427,14 @@ def test_tables_take_a_point_to_its_own_link_whatever_other_mechanisms_called_so
     for kind in ("V", "a"):
         assert _links_of(replace(solved, structure=structure), made[f"{kind}_A3"]) == {3}
         assert _links_of(replace(solved, structure=structure), made[f"{kind}_A"]) == {1}
+
+
+@pytest.mark.parametrize("task", some([*SCHEMES, "nau-slider-crank", "madi-four-bar"], *range(0, 99, 4)))
+def test_the_opposite_of_a_reaction_that_is_read_off_has_its_segment(task: str) -> None:
+    drawn = read_back(sheet(task, lang="en"))
+    rows = {row[0]: row for view in drawn.views if view.name.startswith("results_forces") for row in table(view)}
+
+    pairs = [(rows[one], rows[other]) for (one, _), (other, _) in reactions([*rows.values()])]
+
+    assert pairs != []
+    assert [pair for pair in pairs if (pair[0][1] == "–") != (pair[1][1] == "–")] == []

@@ -19,7 +19,7 @@ from ...tables import givens_view, table
 from ...view import View
 from ..reading import read
 from ..scene import Scene
-from .equations import RATES, Lines, drawn_on, number, printed_segment, value_shown
+from .equations import RATES, Lines, drawn_on, number, opposed, printed_segment, value_shown
 from .forces import on_lever
 
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
@@ -191,7 +191,8 @@ def _turning(scene: Scene, value: float) -> str:
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
     words, none = scene.words, scene.words["table.calculated"]
-    mm, mu, _ = printed_segment(scene, q) if drawn_on(scene, q) in scene.scales else ("", "", "")
+    drawn = q if drawn_on(scene, q) in scene.scales else opposed(scene, q.name)  # its opposite is the same segment
+    mm, mu, _ = ("", "", "") if drawn is None else printed_segment(scene, drawn)
     printed = [*((mm, mu) if mm else (none, none)), number(scene, q.name)]
     row = [words.symbol(q.name), *printed, words.unit(words.display.unit(q.unit))]
     if not words.notation["angles"]:
