@@ -34,6 +34,7 @@ JUMP = 0.7  # of the square's side, that the jump takes at most
 LETTER = 5.0  # mm from the ends of a curve in the square to where its letter may stand
 ARTICLE = "(14)"  # the formula of its curve
 LEAST = 2.5  # mm of a jump in a detail
+APART = 0.5  # mm between the times of a crossing that are two lines in a detail
 SEEN = 10.0  # mm of a jump that is seen as it is
 FREE = 8.0  # mm about a detail inside of a diagram
 TALLEST = 1.05
@@ -65,7 +66,7 @@ def _lift_off_view(scene: HoistScene) -> View:
         canvas.small(LETTERS[name], curves[name][POINTS // 4], prefer, 1.5)
     canvas.part("crossing")
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
-    _magnified(canvas, scene, _room(field, curves["parabola"]))
+    _magnified(canvas, scene, _room(field, curves["parabola"]), field.at(scene.size("t_1"), 0.0))
     heading = (words["heading.hoist_lift_off"], scene.factors("mu_y", "mu_t1"))
     return canvas.finish("lift_off", heading, (scene.stated("t_1", unit="s"),))
 
@@ -209,10 +210,10 @@ class _Detail:
         if line:
             self.canvas.small(text, complex(self.box[2], self.at(height).imag), 1.0 + 0j, 0.8)
 
-    def moment(self) -> None:
-        """Draw the line of t_1 through the middle, with its letter under it."""
-        self.canvas.add(*self.line(self.centre - 2j * HALF, self.centre + 2j * HALF, Pen.THIN, "time", "t_1"))
-        self.canvas.small(self.scene.words.symbol("t_1"), complex(self.at(self.centre).real, self.box[1]), -1j, 0.8)
+    def moment(self, name: str, at: complex, prefer: complex = -1j) -> None:
+        """Draw the line of a time through the square, with its letter under it."""
+        self.canvas.add(*self.line(at - 2j * HALF, at + 2j * HALF, Pen.THIN, "time", name))
+        self.canvas.small(self.scene.words.symbol(name), complex(self.at(at).real, self.box[1]), prefer, 0.8)
 
     def framed(self, *shapes: Shape) -> None:
         """Draw the square round its `shapes`, its letter and scale above, and mark the place in the diagram."""
@@ -235,8 +236,11 @@ def _room(field: Field, curve: Sequence[complex]) -> complex:
     return complex(right + BESIDE, low)
 
 
-def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
-    """Draw the crossing with its chords, larger, in a square whose lower left corner is given."""
+def _magnified(canvas: Canvas, scene: HoistScene, corner: complex, exact: complex) -> None:
+    """Draw the crossing of the curves, at the `exact` time, and that of their chords, larger, in a square.
+
+    Its lower left corner is given.
+    """
     centre = scene.mm(f"{LIFT_OFF}.X")
     detail = _Detail(canvas, scene, centre, corner, TIMES)
     shapes: list[Shape] = []
@@ -245,7 +249,10 @@ def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
         shapes += detail.curve(dense, Pen.MAIN, f"{name}_magnified")
         a, b = (scene.mm(f"{LIFT_OFF}.{letter}{_roots(scene).lift_off + n}") for n in (0, 1))
         shapes += detail.line(a - (b - a), b + (b - a), Pen.THIN)
-    detail.moment()
+    later = exact.real - centre.real
+    if TIMES * abs(later) >= APART:
+        detail.moment("t_1_drawn", complex(centre.real, exact.imag), complex(1.0 if later < 0.0 else -1.0, -1.0))
+    detail.moment("t_1", exact, complex(-1.0 if later < 0.0 else 1.0, -1.0))
     shapes += detail.line(complex(centre.real - HALF, 0.0), complex(centre.real + HALF, 0.0), Pen.THIN, "axis")
     detail.framed(*shapes)
     canvas.add(scene.node(detail.at(centre), "magnified"))
@@ -270,7 +277,7 @@ def _forces_view(scene: HoistScene) -> View:
             canvas.small(said, ends[1], 1.0 + (0.6j if name == "P_m" else -0.6j), 1.0)
     curves = _curves(canvas, scene, field)
     _times(canvas, scene, field)
-    _values(canvas, scene)
+    _values(canvas, scene, field)
     canvas.part("article")
     _jump(canvas, scene, field, curves)
     jump = abs(scene.size("P_st") - scene.size("F_12_t1"))  # it begins as if the load hung at rest
@@ -330,7 +337,7 @@ def _jump(canvas: Canvas, scene: HoistScene, field: Field, curves: Mapping[str, 
     heights = [place.imag for place in shown]
     centre = complex(shown[0].real, 0.5 * (min(heights) + max(heights)))
     detail = _Detail(canvas, scene, centre, corner, times)
-    detail.moment()
+    detail.moment("t_1", centre)
     for name in [*LEVELS][: 1 + (at["P_m"] != at["P_st"])]:
         detail.level(name, at[name], words.symbol(name))
     pens = {"F_12": Pen.MAIN, "P_12": Pen.MAIN, "printed": Pen.DASHED}
@@ -393,13 +400,17 @@ def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
         rows += 1
 
 
-def _values(canvas: Canvas, scene: HoistScene) -> None:
+def _values(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     """Mark the greatest and the least forces with their values."""
     marks = [("P_12_max", "T", HANGING, 1.0 + 1j), ("F_12_t1", f"R{scene.solved.layout.resting}", RESTING, 1.0 + 1j)]
+    marks.append(("P_12_min", "L", HANGING, -1j))
     if scene.size("t_F12_max") != scene.size("t_1"):
         marks.append(("F_12_max", "M", RESTING, 1j))
-    for name, mark, part, prefer in (*marks, ("P_12_min", "L", HANGING, -1j)):
-        at = scene.mm(f"{FORCES}.{mark}")
+    places = [(name, scene.mm(f"{FORCES}.{mark}"), part, prefer) for name, mark, part, prefer in marks]
+    roots = scene.solved.layout.roots
+    if scene.size("F_12_min") != scene.size("F_12_t1") and roots and len(roots.times) > 1:  # the first trough
+        places.append(("F_12_min", field.at(roots.times[1], scene.size("F_12_min")), RESTING, -1j))
+    for name, at, part, prefer in places:
         canvas.part(part, scene.node(at, name, filled=True))
         canvas.small(scene.stated(name), at, prefer, 1.2)
 

@@ -390,6 +390,33 @@ def test_jump_of_the_article_can_be_seen_and_measured(case: HoistCase) -> None:
 
 
 @pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
+def test_detail_of_the_lift_off_shows_the_time_of_the_curves_and_that_of_the_chords(case: HoistCase) -> None:
+    view, found = case.sheet["lift_off"], case.forces
+    (curve,) = (s.points for s in view.strokes if ("curve", "parabola") in s.path)
+    apart = 10.0 * (found["t_1"] / mu(view, "t1") - (node(view, "X") - curve[0]).real)
+    (frame,) = (s for s in view.strokes if ("frame", "magnified") in s.path)
+    middle = 0.5 * (min(p.real for p in frame.points) + max(p.real for p in frame.points))
+    (exact,) = (line.points[0].real for line in view.lines("time", "t_1"))
+    drawn = [line.points[0].real for line in view.lines("time", "t_1_drawn")]
+
+    assert abs(exact - middle - apart) < 10.0 * NEAR
+    assert len(drawn) == (abs(apart) >= 0.5)
+    assert all(abs(place - middle) < NEAR for place in drawn)
+
+
+@pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
+def test_least_force_of_the_first_phase_is_marked_where_the_force_falls(case: HoistCase) -> None:
+    view, found = case.sheet["forces"], case.forces
+    falls = found["F_12_min"] < found["F_12_t1"]
+
+    assert any(("node", "F_12_min") in ring.path for ring in view.rings) == falls
+    assert any(text.string.startswith("F_{12 min} = ") for text in view.texts) == falls
+    if falls:
+        height = (node(view, "F_12_min") - curve(view, "F_12")[0]).imag  # the force begins at zero
+        assert abs(height * mu(view, "F") - found["F_12_min"]) < NEAR * mu(view, "F")
+
+
+@pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
 def test_flow_chart_has_thin_symbols_about_their_texts_and_the_taken_way_thick(case: HoistCase) -> None:
     flow = case.sheet["flow"]
     kinds: dict[str, list[Stroke]] = {}
