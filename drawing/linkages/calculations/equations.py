@@ -328,8 +328,6 @@ def fit_for(scene: Scene, name: str) -> Fits | None:
     if item is None or plan not in scene.scales:
         return None
     mu, value = _factor_on(scene, item, plan)[1], value_shown(scene, item)
-    if abs(value) < READABLE * mu:
-        return None
     return lambda text, readable: bool(laid_off(scene.words, value, mu, text, readable))
 
 
