@@ -51,7 +51,7 @@ def _sizes_view(scene: CamScene) -> View:
         canvas.group("curve", phase, Polyline(points, Pen.MAIN))
         outline += points
     canvas.part("axes")
-    _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds")
+    _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds", -solved.cam.sense)
     _limits(canvas, scene, centre)
     canvas.part("centre")
     _permitted_offsets(canvas, scene)
@@ -62,26 +62,28 @@ def _sizes_view(scene: CamScene) -> View:
         _number(canvas, group, at, out or 1j * at.imag)
     canvas.part("centre")
     _radius(canvas, centre, 0j, "r_0")
-    canvas.small(scene.lettered("r_0")[0], (centre, 0j), -1.0)
+    side = 1.0 if centre.real > 0.0 else -1.0  # of the ordinates on which the centre is
+    canvas.small(scene.lettered("r_0")[0], (centre, 0j), -side)
     offset = scene.dimension("e", abs(float(solved.values["e"])))
     linear(canvas, (complex(0.0, centre.imag), centre), -1j * (BELOW + 8.0), offset, "e")
-    _mark_centre(canvas, scene, centre, -1 + 0j, 0.0)
+    _mark_centre(canvas, scene, centre, -side + 0j, 0.0 if side > 0.0 else HALF_TURN)
     canvas.part("pressure")
     at = scene.drawn(course.analogue(solved, scene.shown), SIZES)
     canvas.add(Line(centre, at, Pen.DASHED, role="ray", name=str(scene.shown)))
     radius, theta = 0.55 * abs(centre), f"{scene.symbol('theta')}_{{{scene.shown}}}"
     canvas.add(Line(centre, centre + 1.12j * radius, Pen.AXIS, role="axis"))
     angle(canvas, centre, (1j, at - centre), radius, "theta", theta)
-    aslant = f"{theta} = {scene.degrees(swept(at - centre, 1j))}"
+    aslant = f"{theta} = {scene.degrees(swept(1j, at - centre))}"
     notes = (*transfer(scene, SIZES), f"{scene.words['said.cam_permitted']};  {aslant}")
     return canvas.finish("sizes", (scene.words["heading.cam_sizes"], scene.factor(scene.scale(SIZES))), notes)
 
 
-def _axes(canvas: Canvas, scene: CamScene, outline: Sequence[complex], foot: float, letter: str) -> None:
-    """Draw both axes through the origin past an outline, that of S down to `foot`."""
+def _axes(canvas: Canvas, scene: CamScene, outline: Sequence[complex], foot: float, letter: str, way: int = 1) -> None:
+    """Draw both axes through the origin past an outline: that of S from `foot`, the other one to the right or left."""
     left, right = (end(p.real for p in outline) for end in (min, max))
-    top, last = 1j * (max(p.imag for p in outline) + PAST), complex(right + PAST, 0.0)
-    for a, b in ((complex(left - PAST, 0.0), last), (1j * foot, top)):
+    top = 1j * (max(p.imag for p in outline) + PAST)
+    first, last = (complex(end, 0.0) for end in (left - PAST, right + PAST)[::way])
+    for a, b in ((first, last), (1j * foot, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(scene.symbol("s"), top, prefer=1 + 0j, clear=1.2)
     canvas.label(scene.symbol(letter), last, prefer=-1j, clear=1.2)
@@ -99,7 +101,7 @@ def _limits(canvas: Canvas, scene: CamScene, centre: complex) -> None:
     for plane in planes:
         canvas.part(f"tangent_{plane.name}")
         touch = scene.drawn(course.touch_of(scene.solved, plane), SIZES)
-        up = plane.normal.conjugate() * 1j  # along the line, upwards: a mirror image turns e + i s_0 down
+        up = plane.normal * 1j  # along the line, upwards: the centre is at -e - i s_0
         up = up if up.imag > 0.0 else -up
         canvas.thin("limit", plane.name, touch + up * LINE, at_level(touch, up, low))
         canvas.add(scene.node(touch, plane.name, "touch", filled=True))
@@ -110,7 +112,7 @@ def _limits(canvas: Canvas, scene: CamScene, centre: complex) -> None:
         axis = at_level(touch, up, 0.0)
         angle(canvas, axis, (across, -up), ARC * scene.style.label, f"gamma_{plane.name}", text)
     canvas.part("permitted")
-    sides = [(plane.normal.conjugate(), scene.drawn(float(plane.least), SIZES)) for plane in planes]
+    sides = [(-plane.normal, scene.drawn(float(plane.least), SIZES)) for plane in planes]
     canvas.add(hatched(sides, (centre.real - reach, low, centre.real + reach, 0.0), 2.5, "centre"))
 
 
@@ -176,8 +178,8 @@ def _permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
     ends = sorted((low, high, at), key=lambda place: place.real)
     whole = arc_between(0j, ends[0], ends[-1], Pen.AXIS, "circle", "r_0")
     canvas.add(replace(whole, start=whole.start - OVER, sweep=whole.sweep + 2.0 * OVER))
-    canvas.group("offsets", "e", arc_between(0j, low, high, Pen.MAIN))
-    for name, end, side in (("e_least", low, -1.0), ("e_most", high, 1.0)):
+    canvas.group("offsets", "e", arc_between(0j, high, low, Pen.MAIN))
+    for name, end, side in (("e_least", low, 1.0), ("e_most", high, -1.0)):
         tick = TICK * unit(end)
         canvas.thin("offset", name, end - tick, end + tick)
         canvas.small(scene.symbol(name), end, complex(side, -1.0), 1.0)

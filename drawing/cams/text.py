@@ -254,7 +254,7 @@ def _said(scene: CamScene, texts: Texts) -> Said:
         said["line"] = str(scene.shown)
     if solved.roller is not None:
         said |= {"e": scene.stated("e", abs(solved.roller.sizes.e)), "offsets": "".join(_offsets_line(scene))}
-        said["rise_side"], said["fall_side"] = (texts["cam.right"], texts["cam.left"])[:: solved.cam.sense]
+        said["rise_side"], said["fall_side"] = (texts["cam.right"], texts["cam.left"])[:: -solved.cam.sense]
         said |= {"ratio_s": _ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": _ratio(scene, "mu_ds", "mu_s_ds")}
         ds = scene.length(abs(course.analogue(solved, scene.shown).real))
         said["OP"] = f"OP_{{{scene.shown}}} = |{scene.symbol('ds')}| = {ds} {words.unit('mm')}"

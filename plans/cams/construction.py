@@ -5,9 +5,11 @@ twice: after the exact curve of the law, and, with `_chord`, after the curve of 
 
 The smallest sizes are read from plans of the travel over its analogues, in equal scales.
 
-`sizes` shows S over ds/dphi: points `1_rise`, `13_fall` on the section lines, from the curves of chords. On each limit
-a tangent runs at the permitted transmission angle from `T_rise`, `T_fall` on the axis; where they meet, in `A`, a cam's
-centre has the limits on both sides. `C` is the centre of the smallest cam, `0` the lowest place of the roller's centre.
+`sizes` shows S over ds/dphi, to the side to which a velocity upwards turns by a right angle with the cam, so that the
+cam's centre lies there as on `profile`: points `1_rise`, `13_fall` on the section lines, from the curves of chords. On
+each limit a tangent runs at the permitted transmission angle from `T_rise`, `T_fall` on the axis; where they meet, in
+`A`, a cam's centre has the limits on both sides. `C` is the centre of the smallest cam, `0` the lowest place of the
+roller's centre.
 
 `plate_sizes` shows S over d2s/dphi2; a tangent at 45 degrees to the negative branch meets the axis of travels in `T`.
 
@@ -129,7 +131,8 @@ define(
         as_number(np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)) * side
     ),
     # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
-    turned_with=lambda analogue, sense: analogue * sense,
+    # the abscissa of a velocity upwards that is turned by a right angle with the cam
+    turned_with=lambda analogue, sense: -analogue * sense,
     negative=lambda value: -value,
     # the angle between the sides a and b; sides in one line may be off by rounding
     angle_of_triangle=(
@@ -330,14 +333,15 @@ def _roller_sizes(board: Board, division: Division, cam: RollerCam) -> None:
         board.turn(f"_tangent_{limit.name}", f"_inclination_{limit.name}")
     tangents = [operand for name in cam.by_tangents.on for operand in (f"{SIZES}.T_{name}", f"_tangent_{name}")]
     board.meet(f"{SIZES}.A", *tangents)
-    board.distance("r_0_tangents", f"{SIZES}.0", f"{SIZES}.A")
-    board.read("_centre", f"{SIZES}.0", f"{SIZES}.A")
+    board.distance("r_0_tangents", f"{SIZES}.A", f"{SIZES}.0")
+    board.read("_centre", f"{SIZES}.A", f"{SIZES}.0")
     board.calc("e_tangents", "component", RIGHT, "_centre")
     board.calc("e", "part_of_travel", "h", "_e_part")
     board.calc("s_0", "part_of_travel", "h", "_s_0_part")
+    board.calc("_beside", "negative", "e")
     board.calc("_below", "negative", "s_0")
     board.pole(f"{SIZES}.0")
-    board.place(f"{SIZES}.C", "e", "_below")
+    board.place(f"{SIZES}.C", "_beside", "_below")
     board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
     _least_angles(board)
     for end in ("e_least", "e_most") if cam.offsets else ():

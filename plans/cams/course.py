@@ -300,7 +300,7 @@ def touch_of(solved: SolvedCam, plane: HalfPlane) -> complex:
     """Return where a limit touches S over ds/dphi: at a jump the side that reaches farther."""
     follower = _rolling(solved).profile.follower
     ends = (complex(follower.analogue(plane.phi, side)) for side in (1, -1))
-    return max(ends, key=lambda end: (plane.normal * end).real)
+    return max(ends, key=lambda end: (-plane.normal.conjugate() * end).real)
 
 
 def touch_of_plate(solved: SolvedCam) -> complex:
@@ -317,9 +317,9 @@ def outwards(solved: SolvedCam, line: int, phase: str) -> complex:
     normal = 0j
     for side in (1,) if line == of_phase[0] else (-1,) if line == of_phase[-1] else (1, -1):
         s, ds, d2s = (float(v) for v in motion.at(float(solved.angles[line]), side))
-        along = complex(sense * d2s, ds)
+        along = complex(-sense * d2s, ds)
         level = 1j * math.copysign(1.0, s - 0.5 * motion.h)
-        normal += -1j * sense * along / abs(along) if along else level
+        normal += 1j * sense * along / abs(along) if along else level
     return normal
 
 
@@ -429,7 +429,7 @@ def offset_places(solved: SolvedCam) -> tuple[complex, ...]:
     if roller is None or roller.offsets is None:
         return ()
     radius = roller.sizes.r_0
-    angles = (math.asin(e / radius) - RIGHT_ANGLE for e in (*roller.offsets, roller.sizes.e))
+    angles = (-math.asin(e / radius) - RIGHT_ANGLE for e in (*roller.offsets, roller.sizes.e))
     return tuple(cmath.rect(radius, angle) for angle in angles)
 
 

@@ -123,9 +123,9 @@ class Straight:
         return np.arctan2(self.sense * ds - sizes.e, sizes.s_0 + s)
 
     def analogue(self, phi: Any, side: int = 1) -> Points:
-        """Return S over ds/dphi, to the side to which the cam's sense turns it."""
+        """Return S over ds/dphi, to the side to which a velocity upwards turns with the cam."""
         s, ds, _ = self.motion.at(phi, side)
-        return self.sense * ds + 1j * s
+        return 1j * s - self.sense * ds
 
     def least_transmission(self, sizes: Sizes, phase: str, two_sided: bool = False) -> Extreme:
         """Return the least transmission angle of the rise or the fall, rad, exactly, and where it is.
@@ -158,7 +158,7 @@ class Straight:
         if cam.offsets is not None:
             numbers |= {"_e_least": cam.offsets[0] / h, "_e_most": cam.offsets[1] / h}
         for limit in cam.limits.each:
-            name, gamma, side = limit.name, limit.gamma, limit.way * self.sense
+            name, gamma, side = limit.name, limit.gamma, -limit.way * self.sense
             numbers |= {f"_slope_{name}": side / math.tan(gamma), f"_side_{name}": float(side)}
             numbers[f"_inclination_{name}"] = gamma if side > 0 else math.pi - gamma
         return numbers

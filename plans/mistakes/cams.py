@@ -228,8 +228,7 @@ def _radius_to_another_point(scene: Scene) -> Changes:
     centre = next((s for s in scene.made_by("read") if s.name == "_centre"), None)
     for step in scene.made_by("distance"):
         if step.name == "r_0" and centre is not None and step.operands == centre.operands:
-            depth = Step("calc", "_depth", ("_up", "_centre"), "component")
-            steps = (centre, depth, Step("calc", step.name, ("_depth",), "negative"))
+            steps = (centre, Step("calc", step.name, ("_up", "_centre"), "component"))
             yield Change(step.name, {step.name: steps, centre.name: ()})
 
 

@@ -608,9 +608,9 @@ def test_the_offsets_that_a_given_r_0_permits_are_drawn_on_its_circle() -> None:
     (permitted,) = view.inside("offsets", "e")
     assert permitted.arc is not None
     origin, radius, _ = permitted.arc
-    mu, ends = values["r_0"] / radius, sorted(permitted.points[k].real for k in (0, -1))
+    mu, ends = values["r_0"] / radius, sorted((permitted.points[k].real for k in (0, -1)), reverse=True)
 
-    found = [(x - origin.real) * mu for x in (*ends, view.point("O").real)]
+    found = [(origin.real - x) * mu for x in (*ends, view.point("O").real)]  # the follower is to the right of O
 
     assert found == pytest.approx([values[name] for name in ("e_least", "e_most", "e")], abs=NEAR * mu)
     assert abs(view.point("O") - origin) == pytest.approx(radius, abs=NEAR)

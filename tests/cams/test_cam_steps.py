@@ -209,3 +209,14 @@ def test_a_blank_has_axes_and_angles_but_no_result(case: tuple[str, str, Setting
     numbers = [text.markup for text in texts if text.role != "heading" and re.search(r"\d", text.markup)]
     assert all(re.match(r"H_|−?\d+°$|d\^\{2\}s", text) for text in numbers), numbers
     assert not any(re.search(r"(ρ|θ|γ|e|h)\S* = ", text.markup) for text in texts if "μ" not in text.markup)
+
+
+@pytest.mark.parametrize(("rotation", "side"), [("ccw", "to the left"), ("cw", "to the right")])
+def test_the_rise_goes_to_the_side_to_which_its_velocity_turns_with_the_cam(rotation: str, side: str) -> None:
+    case = solved("madi-cam", "17", (("rotation", rotation),))
+    _, scene = tables(case)["sizes"]
+
+    assert f"the rise {side}," in said(case, told(case))
+    place = scene.mm("sizes.4_rise")
+    assert place.real < 0.0 if rotation == "ccw" else place.real > 0.0
+    assert (place.real < 0.0) == (scene.mm("sizes.C").real < 0.0)  # the follower's offset is to the good of the rise

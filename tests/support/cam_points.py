@@ -308,7 +308,7 @@ def c5_sizes(case: CamCase, sheet: Sheet) -> Faults:
     yield from _transferred(case, sheet, view, mu, {"diagram_s": (MU_S, MU_S_DS), "diagram_v": (MU_DS, MU_S_DS)})
     origin = _crossing(view)
     at = view.point("O")
-    for phase, sign in (("rise", 1), ("fall", -1)):
+    for phase, sign in (("rise", -1), ("fall", 1)):  # to the side to which a velocity upwards turns with the cam
         points = curve(view, phase)
         out = max(points, key=lambda p: abs(p.real - origin.real))
         yield from unless((out.real - origin.real) * sign * case.sense > 0, f"the {phase} lies on the wrong side")
@@ -329,6 +329,8 @@ def c5_sizes(case: CamCase, sheet: Sheet) -> Faults:
             continue  # a central follower
         yield from unless(abs(measured(view, name) * mu - value) < 0.02 * mu, f"{name} has {measured(view, name)} mm")
     yield from unless(abs(abs(at - origin) * mu - roller.sizes.r_0) < 0.02 * mu, "O is not r_0 from the lowest place")
+    beside = (at - origin).real * mu + roller.sizes.e  # the follower stands e to the right of O, as on the profile
+    yield from unless(abs(beside) < 0.02 * mu, "O is on the other side of the follower than on the profile")
     _, r_0 = ring(sheet["profile"], "circle", "r_0")
     size = abs(at - origin) * mu / mu_l(sheet["profile"])
     yield from unless(abs(size - r_0) < 0.02, f"r_0 is {size} mm here, {r_0} mm in the profile")
