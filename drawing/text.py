@@ -22,6 +22,7 @@ from .font import SCREEN, SLANTED, UPRIGHT, font
 from .shapes import Text
 
 SCRIPT = 5 / 7  # size of sub- and superscripts; a script of a script is no smaller, or nobody could read it
+HEIGHTS, NEAR = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0), 0.03  # mm, of GOST 2.304; part by which a script is off its one
 DROP, LIFT = 0.35, 0.62  # of a script's baseline, in heights of its parent
 CLEAR, BEHIND = 0.08, 0.14  # before a superscript, and behind scripts, in heights of their parent
 GAP = 0.22  # between text and a bar or an underline, and between two underlines, in heights
@@ -378,9 +379,21 @@ class _Pen:
                 shift = LIFT * height
                 aside = CLEAR * height + (SLOPE * shift if self.faces[leans] == SLANTED else 0.0)
             told = told_apart(pieces, self.latin_units)
-            wide, high, low = self.line(told, x + aside, y + shift, SCRIPT * base, base, leans)
+            wide, high, low = self.line(told, x + aside, y + shift, script_of(base), base, leans)
             width, top, bottom = max(width, aside + wide), max(top, high), min(bottom, low)
         return width + BEHIND * height, top, bottom
+
+
+@lru_cache
+def script_of(height: float) -> float:
+    """Return the size of scripts beside letters of a height, mm: the next smaller one of the standard.
+
+    >>> script_of(5.0), script_of(3.5), script_of(7.0)
+    (3.5, 2.5, 5.0)
+    """
+    size = SCRIPT * height
+    standard = min(HEIGHTS, key=lambda known: abs(known - size))
+    return standard if abs(standard - size) <= NEAR * size else size
 
 
 def placer(text: Text) -> Callable[[float, float], complex]:

@@ -23,7 +23,7 @@ from kulman.drawing import letters
 from kulman.drawing.font import FAMILIES, SCREEN, SLANTED, UPRIGHT, font, web_subset
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Text
-from kulman.drawing.text import CLEAR, DROP, LIFT, SCRIPT, escape, lay_out, lettered
+from kulman.drawing.text import CLEAR, DROP, LIFT, escape, lay_out, lettered
 from kulman.drawing.words import Words, notations
 from kulman.scales.errors import LANGUAGES, InputError, messages
 from kulman.scales.packaged import packaged
@@ -395,6 +395,15 @@ def test_broken_markup_and_letters_that_the_font_lacks_are_refused(markup: str) 
     assert problem.value.key == "markup-broken" or "U+901F" in problem.value.text("en")
 
 
+def test_scripts_have_the_next_smaller_size_of_the_standard() -> None:
+    sizes = [
+        lay_out("V_{B}", height).runs[1].size / lay_out("V", 1.0).runs[0].size for height in (10.0, 7.0, 5.0, 3.5, 2.5)
+    ]
+
+    assert sizes == pytest.approx([7.0, 5.0, 3.5, 2.5, 1.8])
+    assert lay_out("V_{B}", 4.0).runs[1].size == pytest.approx(5 / 7 * lay_out("V", 4.0).runs[0].size)
+
+
 def test_scripts_stand_one_over_the_other_and_are_no_smaller_in_scripts() -> None:
     layout, capital, deep = lay_out("a^{n}_{BA}", 5.0), lay_out("H", 3.5), lay_out("V_{S_{2}}", 5.0)
     _, _, after = lay_out("V_{B} = 5", 3.5).runs
@@ -403,9 +412,9 @@ def test_scripts_stand_one_over_the_other_and_are_no_smaller_in_scripts() -> Non
     assert below.x == base.width
     assert above.x == pytest.approx(base.width + 5.0 * (CLEAR + LIFT * math.tan(math.radians(15))))  # along the slope
     assert above.y > 0 > below.y == -5.0 * DROP
-    assert above.size == below.size == pytest.approx(SCRIPT * base.size)
+    assert above.size == below.size == pytest.approx(3.5 / 5.0 * base.size)
     assert layout.width >= base.width + below.width
-    assert [run.size / deep.runs[0].size for run in deep.runs] == pytest.approx([1, SCRIPT, SCRIPT])
+    assert [run.size / deep.runs[0].size for run in deep.runs] == pytest.approx([1, 0.7, 0.7])
     assert deep.runs[2].y < deep.runs[1].y
     assert (capital.bottom, capital.top) == (0, pytest.approx(3.5, abs=1e-12))  # a capital is as high as it says
     assert after.string == "= 5"  # spaces between runs become distance
