@@ -18,6 +18,7 @@ NEAREST = 2.0  # arrowheads from the vertex of an angle within which no head sta
 GUIDE = 0.75  # length of a guide in sliders
 OF_CAM = 0.2  # largest radius of the shaft in least radii of the cam
 OF_OFFSET, NEAR = 0.65, (0.6, 1.5)  # radius of the shaft in offsets where that of the circle is near, in shaft radii
+SQUARE = 0.8, 2.0  # mm, the mark of a right angle: the least, and the usual one
 SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
 
 
@@ -104,8 +105,9 @@ def arm(about: complex, foot: complex, name: str, along: complex, style: Style) 
     if reach > 2.2 * style.arrow:
         e = (foot - about) / reach
         parts += [Head(foot, e), Head(about, -e)]
-    if reach > 4.0:
-        parts.append(right_angle(foot, (about - foot) / reach, along, min(2.0, reach / 3)))
+    if reach > SQUARE[0]:
+        size = min(SQUARE[1], max(SQUARE[0], reach / 3))
+        parts.append(right_angle(foot, (about - foot) / reach, along, size))
     return Group(tuple(parts), "arm", name)
 
 

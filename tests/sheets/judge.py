@@ -39,6 +39,7 @@ SIDES = {297: "A4", 420: "A3", 594: "A2", 841: "A1"}
 PAGES = {(841.0, 594.0), (594.0, 420.0), (420.0, 297.0), (297.0, 420.0), (210.0, 297.0)}
 THINNEST = {841.0: 0.3, 594.0: 0.25, 420.0: 0.25, 297.0: 0.25, 210.0: 0.2}  # lines, by widths of pages
 HEIGHTS = (2.5, 3.5, 5.0, 7.0, 10.0)  # of capitals
+SCRIPTS = dict(zip(HEIGHTS, (1.8, *HEIGHTS), strict=False))  # the next smaller ones
 FOREIGN = {"uk": "[ыэъёЫЭЪЁ]", "ru": "[іїєґІЇЄҐ]", "en": "[а-яА-ЯіїєґІЇЄҐёЁ]"}
 OTHERS = {  # words of the neighbouring language that pass the alphabet
     "uk": "Лист|Листов|Подп|Утв|Пров|Изм|сила|Разраб",
@@ -362,10 +363,11 @@ def pens(page: Page) -> Iterator[Finding]:
 def _heights(text: Text, large: bool) -> Iterator[str]:
     capitals = {run.cap for run in text.runs}
     body = max(capitals)
-    if not any(abs(body - height) < 0.01 for height in HEIGHTS):
+    known = next((height for height in HEIGHTS if abs(body - height) < 0.01), 0.0)
+    if not known:
         yield f"{text.string!r} is {body:.2f} high"
     for small in capitals - {body}:
-        if abs(small / body - 5 / 7) > 0.001 or small < (2.5 if large else 1.75) - 0.001:
+        if abs(small - SCRIPTS.get(known, 0.0)) > 0.001 or small < (2.5 if large else 1.75) - 0.001:
             yield f"a script of {text.string!r} is {small:.2f} high"
 
 

@@ -532,6 +532,22 @@ def test_arms_are_moved_off_forces_that_they_would_cross(variant: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("task", "variant"),
+    [("scheme-08-planer", "3"), ("scheme-12-shaking-conveyor", "0"), ("scheme-13-toggle-press", "3")],
+)
+def test_an_arm_shorter_than_a_block_is_drawn_and_lettered_beside_it(task: str, variant: str) -> None:
+    view = read_back(sheet(task, variant, lang="en"))["group_45"]
+    (arm,) = (s for s in view.strokes if ("arm", "h_4") in s.path and s.role == "thin")
+    blocks = [_drawn(s) for s in view.strokes if s.path and s.path[-1][0] == "link" and len(s.points) > 4]
+
+    assert blocks
+    assert 1.0 < arm.length < 6.0
+    assert all(block.convex_hull.distance(_drawn(arm)) > 0.5 for block in blocks)
+    assert [s for s in view.strokes if ("arm", "h_4") in s.path and s.role == "right-angle"]
+    assert [t.string for t in view.of("label") if t.string.startswith("h_{4} = ")]
+
+
+@pytest.mark.parametrize(
     ("task", "variant", "figure"),
     some([("scheme-13-toggle-press", "0", "group_45"), ("scheme-11-slotter", "0", "group_45")], 0),
 )

@@ -31,7 +31,7 @@ from ..scene import Scene
 from .links import NEAR, Skeleton, Stroke, draw_links, foot_of, guide_of, letter_links, letter_point, rays_of
 from .scheme import special_points
 
-LEAST = 0.05  # mm: a shorter arm is none
+LEAST, SHORT = 0.05, 2.2  # mm: a shorter arm is none; lengths of an arrow: beside a shorter one no number has room
 PAST = 4.0  # mm by which the line of a force runs past what it meets
 SHORTER = 0.75  # part of its length that an arrow beside another one has
 BESIDE, LED = 0.8, (0.9, 1.3)  # heights of a letter between two arrows side by side, and from the point along one
@@ -44,6 +44,7 @@ CLOSE = math.cos(math.radians(12.0))  # arms that make a smaller angle run into 
 STEP, TRIES = 2.4, 6  # heights of an arm's letters between arms that are staggered; how often one is moved
 AROUND, ENDS = 2, 0.5  # steps more by which an arm is moved rather than cross another one; mm of it at both ends
 TURNING = 2.0  # rad, the arrow of a couple
+OUT = 2.5  # mm from a block of an arm that is moved out of it
 OF_FOOT = 2  # steps by which an arm is moved past the foot of a pivot
 LEANS = [0.14 * k for k in range(-5, 6)]  # rad from the middle of a foot, in which its lines leave the pivot
 MANY = 3  # arms of a figure; of more the drawing has letters alone, and their millimetres stand in the table
@@ -77,8 +78,8 @@ class _Arm(NamedTuple):
             # smaller than a node's letter: a number with its symbol is long, and arms lie close together
             letters = " = ".join(map(scene.words.symbol, dict.fromkeys(self.names)))
             text, small = f"{letters} = {scene.segment(name)}", scene.style.text
-            if alone:
-                canvas.label(letters, (start, foot), clear=0.9, height=small, strict=True, last=text)
+            if alone or abs(foot - start) < SHORT * scene.style.arrow:  # led to where there is room
+                canvas.label(letters if alone else text, (start, foot), clear=0.9, height=small, strict=True, last=text)
             else:
                 canvas.label(text, (start, foot), clear=0.9, height=small, strict=True, spare=text)
 
@@ -175,7 +176,7 @@ class Sketch:
             way, step = (arms[i].foot - pole) / reach, outward(arms[i], pole, middle) * STEP * style.text
             beside = [k for _, k in order if (way.conjugate() * unit(arms[k].foot - pole)).real > CLOSE]
             begin = max((settled[k] + 1.0 for k in beside if k in settled), default=0.0)
-            begin = max(begin, abs(least.get(i, 0j) / step))
+            begin = max(begin, abs(least.get(i, 0j) / step), self._out_of_block(pole, reach * way, step))
             taken = [*self._arms, *((pole + by, arms[k].foot + by) for k, by in shifts.items())]
             lies = [(pole + k * step, arms[i].foot + k * step) for k in (begin + n for n in range(TRIES))]
             free = [n for n, ends in enumerate(lies) if not self._upon(*ends, taken)]
@@ -184,6 +185,12 @@ class Sketch:
             settled[i] = begin + min(free, key=costs.__getitem__, default=0)
             shifts[i] = settled[i] * step
         return {i: by for i, by in shifts.items() if by}
+
+    def _out_of_block(self, pole: complex, reach: complex, step: complex) -> float:
+        """Return by how many steps an arm is moved that would lie within a block, where nobody could letter it."""
+        blocks = (block for figure in self.figures for block in figure.blocks if abs(block.at - pole) < NEAR)
+        rims = (block.rim(unit(step)) for block in blocks if abs(reach) < block.rim(unit(reach)))
+        return max(rims, default=-OUT) / abs(step) + OUT / abs(step)
 
     def _upon(self, a: complex, b: complex, arms: Sequence[Stroke]) -> bool:
         """Whether a line runs along a force, a side of a block, or one of these arms, or close beside one of them."""
