@@ -41,6 +41,9 @@ FAR = np.array([5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0])  # mm, how long l
 AFIELD = np.array([35.0, 42.0, 50.0, 60.0, 75.0])  # mm, how long where there is no place nearer
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
 STARTS = np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92])  # the same for the start of a leader
+BETWEEN = np.linspace(0.05, 0.95, 37)  # others, where another vector or its arrowhead is near to one of those
+LONE = 1.0  # mm from them at which a leader is plainly that of its own
+NEARBY = 24.0  # what leaders cost that are as long as one should be
 STEEP = np.exp(1j * np.radians([*range(30, 151, 15), *range(-150, -29, 15)]))  # a level leader would be a bar or a dash
 FROM_RIGHT = complex(np.exp(1j * np.radians(105.0)))  # a steeper line would be read from the left
 ACROSS, GRAZING = 0.42, 0.2  # sines of the least angle between a leader and its own segment, and any other line
@@ -76,7 +79,8 @@ class Request:
     chooses first. A `strict` label, such as that of a dimension, stands rather on a leader than nearer to something
     else. One that may go `afield` takes a long leader where it has no place nearer, through whatever is drawn where it
     must. One that may run `along` its segment is turned with it before it is set apart. An `optional` one runs along it
-    rather than not, gives way to all others, and is left out where there is no room.
+    rather than not, gives way to all others, and is left out where there is no room. One with a bar has its `bare` box,
+    that of its letters only, from its corner: they, too, stand nearest to what they name.
     """
 
     name: str
@@ -91,6 +95,7 @@ class Request:
     along: bool = True
     optional: bool = False
     other: Segment | None = None
+    bare: Box | None = None
 
 
 # sixteen sides of a box: where its centre lies in half sizes, and along what normal it leaves the anchor
@@ -102,7 +107,10 @@ LEAVE = np.where(np.minimum(abs(SIDE_X), abs(SIDE_Y)) > 0.99, HEADING, _AXIS)
 
 
 class Wanted(NamedTuple):
-    """The requests as arrays of shape (L,); `a` equals `b` for a node, `rim` is the radius of its own circle."""
+    """The requests as arrays of shape (L,); `a` equals `b` for a node, `rim` is the radius of its own circle.
+
+    The `bare` box of a label with a bar is about a place `aside` of its middle, of half sizes as a complex number.
+    """
 
     a: Points
     b: Points
@@ -113,6 +121,8 @@ class Wanted(NamedTuple):
     prefer: Points
     priority: Reals
     strict: Flags
+    aside: Points
+    bare: Points
 
     @classmethod
     def of(cls, requests: Sequence[Request], obstacles: Obstacles, gap: float) -> Wanted:
@@ -127,7 +137,22 @@ class Wanted(NamedTuple):
         own = (a == b)[:, None] & (abs(a[:, None] - centres) < TOUCH)
         rim = np.where(own, radii.real, 0.0).max(axis=1, initial=0.0)
         strict = np.array([r.strict for r in requests], dtype=bool)
-        return cls(a, b, numbers[0], numbers[1], np.maximum(numbers[2], rim + gap), rim, prefer, numbers[3], strict)
+        clear = np.maximum(numbers[2], rim + gap)
+        return cls(a, b, numbers[0], numbers[1], clear, rim, prefer, numbers[3], strict, *cls._bare(requests))
+
+    @staticmethod
+    def _bare(requests: Sequence[Request]) -> tuple[Points, Points]:
+        """Return where the middles of letters without bars are from those of the labels, and their half sizes."""
+        boxes = np.array([r.bare or (0.0, 0.0, r.width, r.height) for r in requests], dtype=float).T
+        low, high = boxes[0] + 1j * boxes[1], boxes[2] + 1j * boxes[3]
+        whole = np.array([complex(r.width, r.height) for r in requests])
+        return (low + high - whole) / 2, (high - low) / 2
+
+    def sized(self, requests: Sequence[Request]) -> Wanted:
+        """Return the same wishes for labels of other sizes."""
+        half = np.array([(r.width / 2, r.height / 2) for r in requests], dtype=float).T
+        aside, bare = self._bare(requests)
+        return self._replace(hw=half[0], hh=half[1], aside=aside, bare=bare)
 
     def at(self, i: int, a: complex, b: complex) -> Wanted:
         """Return the requests with another segment for label i."""
@@ -311,6 +336,8 @@ class Surroundings:
         apart = np.where(same, np.where((wanted.a == wanted.b)[i[r]], SURELY, PLAINLY), 0.1)
         price[r] += np.where(lead < apart[:, None], doubtful, 0.0)
         price[r] += CLOSE * within(DOUBT - lead, 0.0, DOUBT)
+        r, lead = self._barely(wanted, i, j, (x, y))
+        price[r] += np.where(lead < np.where(belongs[r], -EVEN, SURELY)[:, None], THIN, 0.0)
         price += np.where(self._foreign(wanted, i, j, belongs, distance, own[i]), COVER, 0.0)
         cost = cost.copy()
         crowded, starts = np.unique(i, return_index=True)
@@ -319,6 +346,18 @@ class Surroundings:
         if self.bounds is not None:
             cost += COVER * self._beyond(centre, hw + 1j * hh)
         return _Grid(x, y, cost)
+
+    def _barely(self, wanted: Wanted, i: Numbers, j: Numbers, at: tuple[Reals, Reals]) -> tuple[Numbers, Reals]:
+        """Return which pairs are letters with bars and other segments; by how much they are nearer to their own."""
+        barred = (wanted.a != wanted.b) & (wanted.bare.imag < wanted.hh - SLACK)
+        r = (barred[i] & self._same_kind(wanted, i, j)).nonzero()[0]
+        r = r[(abs(self.things.middle[j[r]] - 0.5 * (wanted.a + wanted.b)[i[r]]) > SLACK)]
+        k = i[r]
+        x, y, half = at[0] + wanted.aside.real[:, None], at[1] + wanted.aside.imag[:, None], wanted.bare[:, None]
+        own = Convex._make(column[:, None] for column in Convex.of(wanted.a, wanted.b))
+        far = own.distance(x, y, half.real, half.imag)
+        others = Convex._make(column[j[r], None] for column in self.things)
+        return r, others.distance(x[k], y[k], half.real[k], half.imag[k]) - far[k]
 
     def _foreign(self, wanted: Wanted, i: Numbers, j: Numbers, belongs: Flags, distance: Reals, own: Reals) -> Flags:
         """Tell which places of labels i are nearer to things j in the place of their own, or to circles of others.
@@ -397,6 +436,17 @@ class Surroundings:
         result: Flags = ((reach < rim + TOUCH) & aligned) | at_end
         return result
 
+    def alone(self, starts: Points, a: complex, b: complex) -> Flags:
+        """Tell which places on the segment from a to b are plainly no place of other lines, nor of their arrowheads."""
+        none, strokes = np.zeros(1), (self.kind == NAMED) | (self.kind == MAIN)
+        to_ends = [self.things.distance(np.array(end.real), np.array(end.imag), none, none) for end in (a, b)]
+        others = strokes & (np.maximum(*to_ends) > TOUCH)  # along which it does not lie
+        others |= (self.kind == HEAD) & (abs(self.things.middle + self.things.along - b) > TOUCH)
+        near = Convex._make(column[others] for column in self.things)
+        away = near.distance(starts.real[:, None], starts.imag[:, None], none, none)
+        plain: Flags = away.min(axis=1, initial=LONE) >= LONE
+        return plain
+
     def crossed(self, heads: Points, starts: Points) -> Numbers:
         """Count what leaders cross, run through or along, or leave at so small an angle that they seem to belong to it.
 
@@ -463,7 +513,8 @@ class Surroundings:
         close_by: Flags = away <= reach
         k, j = close_by.nonzero()
         distance = shapely.distance(boxes[k], self.shapes[j])
-        far = abs(((at - wanted.a[i]) / e).imag) - hh  # from its own segment
+        upward = ((at - wanted.a[i]) / e).imag
+        far = abs(upward) - hh + np.where(upward < 0.0, 2.0 * (hh - wanted.bare[i].imag), 0.0)  # from its own segment
         own, every = Wanted._make(column[i : i + 1] for column in wanted), np.flatnonzero(close_by.any(axis=0))
         one = np.zeros(len(every), dtype=int)
         lead, same = np.full(len(self.kind), SURELY), np.zeros(len(self.kind), dtype=bool)

@@ -91,6 +91,23 @@ class _TextLayout:
         """Width and height of all that it covers."""
         return self.right - self.left, self.top - self.bottom
 
+    @property
+    def bare(self) -> Box | None:
+        """The box of its letters from the corner of all that it covers, where they have rules; else there is none.
+
+        A bar over letters that lean reaches beyond them.
+        """
+        if not self.rules:
+            return None
+        ink = [(run, [font(run.face).ink(letter) for letter in run.string]) for run in self.runs]
+        return (
+            min(run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in self.runs) - self.left,
+            min(run.y + min(low for _, low, _ in of) * run.size for run, of in ink) - self.bottom,
+            max(run.x + run.width + font(run.face).beyond(run.string[-1])[1] * run.size for run in self.runs)
+            - self.left,
+            max(run.y + max(high for _, _, high in of) * run.size for run, of in ink) - self.bottom,
+        )
+
 
 # Width, top and bottom of what has been laid out; top < bottom where there is no ink.
 _Span: TypeAlias = tuple[float, float, float]

@@ -210,7 +210,8 @@ class Canvas:
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
         size, afield = layout.size, not spare
-        request = Request(name, *size, anchor, clear, prefer, priority, strict, afield, along, optional, other)
+        wishes = clear, prefer, priority, strict, afield, along, optional, other
+        request = Request(name, *size, anchor, *wishes, layout.bare)
         self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare, first)
 
     def small(
@@ -355,8 +356,9 @@ class Canvas:
         """Return a letter no higher than texts."""
         if letter.height <= self.style.text:
             return letter
-        width, height = lay_out(letter.markup, self.style.text).size
-        request = replace(letter.request, width=width, height=height)
+        layout = lay_out(letter.markup, self.style.text)
+        width, height = layout.size
+        request = replace(letter.request, width=width, height=height, bare=layout.bare)
         return letter._replace(request=request, height=self.style.text)
 
     def _scene(self, drawn: Obstacles | Scene, last: bool = False) -> Scene:
