@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import pi
+from math import inf, pi
 from typing import TypeAlias
 
 from ..scales.errors import InputError
@@ -31,6 +31,15 @@ NARROWEST = 40  # per cent of a letter's own width
 # how narrow letters of a name may be made: of a full one, which initials may stand for, and of any that one can read
 ROOMY, LEGIBLE = 0.75, 0.5
 _PATRONYMIC = re.compile(r"\w+(вич|івна|ївна|ична|овна|евна|vych|vich|ivna|yivna|ovna|evna)", re.IGNORECASE)
+_INITIALS = re.compile(r"(?:[A-ZА-ЯҐЁЄІЇ]\.-?)+")
+ABBREVIATED = 3  # letters of a department in capitals
+# endings that surnames have, and the given names that have them
+_OF_SURNAMES = (
+    *("енко", "йко", "чук", "щук", "ський", "ська", "цький", "цька", "ский", "ская", "цкий", "цкая", "зький", "зька"),
+    *("ов", "ова", "ев", "ева", "єв", "єва", "ьов", "ьова", "ёв", "ёва", "ишин", "ець", "єць", "дзе", "швілі"),
+    *("enko", "chuk", "ska", "ski", "sky", "skyi", "skaya"),
+)
+_OF_GIVEN = ("любов", "лев", "єва", "ева")
 Ruling: TypeAlias = tuple[tuple[float, float, float, float, Pen], ...]  # ends and pens of lines
 
 
@@ -389,8 +398,10 @@ def _named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name
     """
     found: list[list[Text]] = []
     refused: list[InputError] = []
-    full = {} if plain == _with_initials(plain) else {plain: ROOMY}
-    for way, least in {_surname(plain): LEGIBLE, _with_initials(plain): LEGIBLE, **full}.items():
+    short = (_surname(plain), _with_initials(plain, titles=False), _with_initials(plain))
+    known = _surname_at(plain.split())[1]
+    ways = dict.fromkeys(short, LEGIBLE if known else inf)
+    for way, least in (ways | {plain: LEGIBLE if plain in short else ROOMY if known else 0.0}).items():
         try:
             texts = _fitted(way, cell, heights, anchor, name)
         except InputError as error:
@@ -403,34 +414,59 @@ def _named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name
 
 
 def _surname(plain: str) -> str:
-    """Return the surname of a full name: before a patronymic's given name, or behind it; else first, in Latin last.
+    """Return the surname of a full name.
 
     >>> _surname("Коваль Іван Петрович"), _surname("Іван Петрович Коваль"), _surname("Ivan Koval")
     ('Коваль', 'Коваль', 'Koval')
     """
     words = plain.split()
-    return words[_surname_at(words)] if words else ""
+    return words[_surname_at(words)[0]] if words else ""
 
 
-def _with_initials(plain: str) -> str:
+def _with_initials(plain: str, titles: bool = True) -> str:
     """Return a full name as surname and initials, in the order in which it is written.
 
     >>> _with_initials("Коваль Анна-Марія Петрівна"), _with_initials("Ivan Koval"), _with_initials("доц. Коваль Ольга")
     ('Коваль А.-М. П.', 'I. Koval', 'доц. Коваль О.')
     """
     words = plain.split()
-    at = _surname_at(words)
-    names = (place != at and word[:1].isalpha() and not word.endswith(".") for place, word in enumerate(words))
-    return " ".join(
-        re.sub(r"(\w)\w+", r"\1.", word) if short else word for word, short in zip(words, names, strict=True)
-    )
+    surname = _surname_at(words)[0]
+    has_initials = any(map(_INITIALS.fullmatch, words))
+
+    def written(at: int, word: str) -> str:
+        if at == surname or _INITIALS.fullmatch(word):
+            return word
+        if has_initials or word.endswith(".") or not word[:1].isalpha():
+            return word if titles else ""
+        return re.sub(r"(\w)\w+", r"\1.", word)
+
+    return " ".join(filter(None, map(written, range(len(words)), words)))
 
 
-def _surname_at(words: Sequence[str]) -> int:
-    first = next((at for at, word in enumerate(words) if not word.endswith(".")), 0)  # behind a title
-    last = len(words) - 1
-    if last > first and _PATRONYMIC.fullmatch(words[last]):
-        return first
-    if last > first + 1 and _PATRONYMIC.fullmatch(words[last - 1]):
-        return last
-    return last if words and re.match("[A-Za-z]", words[first]) else first
+def _surname_at(words: Sequence[str]) -> tuple[int, bool]:
+    """Return which word of a name is the surname, and whether anything tells so: of `Олена Лось` nothing does.
+
+    What does: initials beside it, a comma behind it, its capitals, a patronymic, its ending. Else it is taken for the
+    first word, in Latin for the last.
+    """
+    if not words:
+        return 0, True
+    names = [at for at, word in enumerate(words) if not word.endswith(".")] or [0]  # neither titles nor initials
+    initials = [at for at, word in enumerate(words) if _INITIALS.fullmatch(word)]
+    if initials and len(names) < len(words):
+        behind = [at for at in names if at > initials[-1]]
+        return (behind[0] if behind else [at for at in names if at <= initials[0]][-1]), True
+    for told in (
+        [at for at in names if words[at].endswith(",")],
+        [at for at in names if words[at].isupper() and len(words[at]) > ABBREVIATED],
+        [names[-1]] if len(names) > 2 and _PATRONYMIC.fullmatch(words[names[-2]]) else [],
+        [names[-3]] if len(names) > 2 and _PATRONYMIC.fullmatch(words[names[-1]]) else [],
+        [at for at in names if any(map(_is_surname, words[at].casefold().split("-")))],
+    ):
+        if len(told) == 1:
+            return told[0], True
+    return names[-1 if re.match("[A-Za-z]", words[names[0]]) else 0], len(names) == 1
+
+
+def _is_surname(part: str) -> bool:
+    return part.endswith(_OF_SURNAMES) and part not in _OF_GIVEN
