@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from kulman import solve
+from kulman import sheet, solve
 from kulman.scales.errors import LANGUAGES, InputError, KulmanError, messages
 from kulman.tests.support import broken_files as brokens
 from kulman.tests.support.broken_files import BROKEN, LOADED, broken
@@ -433,3 +433,28 @@ def test_a_form_that_has_been_filled_in_is_never_written_over(
 
     assert "it is left as it is" in refusal(*command, "--form", form.name)
     assert form.read_bytes() == filled
+
+
+@pytest.mark.parametrize(
+    ("read", "command"),
+    [
+        ("answers.csv", ("check", TASK, "answers.csv", "-o", "./answers.csv")),
+        ("plans.svg", ("check", TASK, "-v", "3", "plans.svg", "-o", "plans.svg")),
+        ("plans.svg", ("check", TASK, "-v", "3", "*.svg", "-o", "marked.svg", "-o", "plans.svg")),
+        ("roster.csv", ("check", TASK, "answers.csv", "--roster", "roster.csv", "--moodle", "roster.csv")),
+        ("numbers.csv", ("variants", TASK, "--from", "numbers.csv", "-o", "key.xlsx", "-o", "numbers.csv")),
+    ],
+)
+def test_what_a_command_reads_is_never_written_over(
+    read: str, command: tuple[str, ...], folder: Path, refusal: Callable[..., str]
+) -> None:
+    sheet(TASK, "3", only=["velocity"]).save("plans.svg")
+    Path("answers.csv").write_text("variant,3\nquantity,value\nV_B,5.62\n")
+    Path("roster.csv").write_text("student,variant\nKoval,3\n")
+    Path("numbers.csv").write_text(
+        "variant,phi,l_OA,l_AB,l_AS2,n_1,m_2,m_3,J_S2,F_3\n1,30,25,125,42,2000,1,1,0.005,2\n"
+    )
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    assert read in refusal(*command)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before

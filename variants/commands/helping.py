@@ -8,14 +8,16 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from glob import glob
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ...scales.choices import HANDS
-from ...scales.errors import LANGUAGES, KulmanError, system_language
+from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
 from ...scales.names import unknown
+from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 
 if TYPE_CHECKING:
@@ -181,6 +183,14 @@ def _row(ctx: click.Context, command: str, option: click.Option) -> tuple[str, s
     return names if option.is_flag else f"{names} {place(option)}", f"{text}  [{'; '.join(extra)}]" if extra else text
 
 
+def _files_named(values: Iterable[object]) -> Iterator[str]:
+    """Go through the names of files that values of parameters may be, one or several, or a pattern."""
+    for value in values:
+        for name in value if isinstance(value, tuple) else (value,):
+            if isinstance(name, str) and "\0" not in name:
+                yield from (name, *glob(name))
+
+
 class Command(click.Command):
     """A command whose help is in the language of messages; its `epilog` is example commands, a line each.
 
@@ -191,6 +201,15 @@ class Command(click.Command):
     def told(self) -> str:
         """The name of its table of texts."""
         return self.name or ""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Do it, unless a file that it reads would be written over: those of people, whose work it is."""
+        outputs = (*ctx.params.get("files", ()), *filter(None, [ctx.params.get("moodle")]))
+        for output in filter(os.path.exists, outputs):
+            for name in filter(os.path.exists, _files_named(ctx.params.values())):
+                if os.path.samefile(name, output):
+                    raise InputError("output-read", file=quote(output, SHOWN))
+        return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
         """Return the words after the command in the line of usage."""
