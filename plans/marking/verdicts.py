@@ -21,14 +21,17 @@ from .key import Key, Question, behind, hanging_on
 from .student import Allowance, StudentBoard, Take, settled, settled_in
 
 DECIMALS = tuple(10.0**power for power in (-3, -2, -1, 1, 2, 3))  # mm, cm, dm
+THOUSANDS = (1e-3, 1e3)  # tons, kN/m, ms
 # degrees, turns a minute
 ANGLES = tuple(x for times in (180.0 / math.pi, 30.0 / math.pi) for x in (times, 1.0 / times))
 UNITS = {
     "m": DECIMALS,
-    "m/s": DECIMALS,
+    "m/s": (*DECIMALS, 1 / 3.6, 3.6),  # km/h
     "m/s^2": DECIMALS,
     "N": (1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6),  # kN, MPa in what it comes from, cm on the plan
     "N*m": (1e-6, *DECIMALS, 1e6),
+    "Pa": (1e-6, *THOUSANDS, 1e6),
+    **dict.fromkeys(("kg", "N/m", "s"), THOUSANDS),
     **dict.fromkeys(("m/mm", "(m/s)/mm", "(m/s^2)/mm"), DECIMALS),
     "rad": ANGLES[:2],
     "rad/s": ANGLES,

@@ -474,6 +474,31 @@ def test_a_right_number_in_a_unit_of_another_quantity_has_a_wrong_unit(tmp_path:
         assert "does not fit" in report.lists["notes"][0]
 
 
+@pytest.mark.parametrize(
+    ("row", "verdict"),
+    [
+        ("sigma_max;;;256,1 Па;;", "scale"),
+        ("sigma_max;;;256100000;;", "scale"),
+        ("sigma_max;;;256100;;", "scale"),
+        ("sigma_max;;;2561;;", "wrong"),
+        ("m;;;3,265;;", "scale"),
+        ("C_12;;;1491;;", "scale"),
+        ("C_12;;;6773000;;", "wrong"),
+        ("t_1;;;165,8;;", "scale"),
+        ("V_t;;;0,13 км/год;;", "scale"),
+        ("V_t;;;0,468 км/год;;", "right"),
+        ("F_12_max;;;29,82;;", "scale"),
+    ],
+)
+def test_a_right_number_in_another_unit_of_its_quantity_has_a_wrong_unit(
+    tmp_path: Path, row: str, verdict: str
+) -> None:
+    """A stress in Pa, a mass in tons, a stiffness in kN/m were wrong, without a part of the mark."""
+    found = check("karpenko-hoist", "V03").mark(read(tmp_path, f"{row}\n", "V03", "karpenko-hoist"))
+
+    assert [line.verdict for line in found.marked.marking.answered] == [verdict]
+
+
 def test_a_wrong_unit_over_a_column_is_no_error_of_a_student(tmp_path: Path) -> None:
     (file := tmp_path / "class.csv").write_text(
         "student;V_B, м/с²;V_A, m/s\nА;5,62;5,86\nБ;5,62 км;5,86\n", encoding="utf-8"
