@@ -18,7 +18,7 @@ from ..drawing.words import Given, Words
 from ..plans.names import role, scale_factor
 from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
-from ..scales.errors import LANGUAGES, InputError, Written
+from ..scales.errors import LANGUAGES, InputError, PositionError, Written
 from ..scales.givens import Bound, Described, Givens
 from ..scales.names import by_name, named, names_of, of_kind, unknown
 from ..scales.numbers import quote
@@ -147,27 +147,35 @@ class Case(Request):
         words = Words.of(self.language if language is None else language, notation).showing(self.display)
         return replace(words, ruler=self.readings == RULER)
 
+    def error(self) -> PositionError | None:
+        """Return why there is no plan, or None; and which numbers that were set are far from those of the task."""
+        error, far = self.solved.error(), [*_far(self.task, self.variant, self.settings)]
+        if error is None or not far:
+            return error
+        return PositionError("faults", status_word=error.status_word, faults=[*far, error])
+
     @property
     def warnings(self) -> tuple[InputError, ...]:
         """What a user should know: data far from those of the task, lines that meet at a small angle."""
-        return *self._far(), *self.kind.warnings(self.solved)
-
-    def _far(self) -> Iterator[InputError]:
-        """Go through what was set to hundreds of times more or less than any variant has: metres for millimetres."""
-        for name, value in self.task.resolve(self.variant, {**self.settings}).items():
-            given, row = self.task.givens[name], (variant.values.get(name) for variant in self.task.variants.values())
-            if name not in self.settings or isinstance(value, str) or given.unit is None or given.bound is Bound.FREE:
-                continue
-            sizes = [size for size in row if not isinstance(size, str) and size]
-            if sizes and value and not min(sizes) / FAR < value < max(sizes) * FAR:
-                own = {"text": value, "least": min(sizes), "most": max(sizes)}
-                said = {key: f"{given.unit.from_si(size):.6g}" for key, size in own.items()}
-                yield LocatedError(name, InputError("given-far", unit=UnitName(given.unit.name), **said))
+        return *_far(self.task, self.variant, self.settings), *self.kind.warnings(self.solved)
 
     @property
     def kind(self) -> Kind[Any, Any]:
         """Of which kind the task is."""
         return kind_of(self.task.kind)
+
+
+def _far(task: Task, variant: str, settings: Settings) -> Iterator[InputError]:
+    """Go through what was set to hundreds of times more or less than any variant has: metres for millimetres."""
+    for name, value in task.resolve(variant, {**settings}).items():
+        given, row = task.givens[name], (one.values.get(name) for one in task.variants.values())
+        if name not in settings or isinstance(value, str) or given.unit is None or given.bound is Bound.FREE:
+            continue
+        sizes = [size for size in row if not isinstance(size, str) and size]
+        if sizes and value and not min(sizes) / FAR < value < max(sizes) * FAR:
+            own = {"text": value, "least": min(sizes), "most": max(sizes)}
+            said = {key: f"{given.unit.from_si(size):.6g}" for key, size in own.items()}
+            yield LocatedError(name, InputError("given-far", unit=UnitName(given.unit.name), **said))
 
 
 class Tie(NamedTuple):

@@ -243,7 +243,7 @@ def drawing_of(case: Case) -> Drawn:
         if case.kind.moves:
             raise InputError("kind-without", task=quote(case.task.id), text="--positions")
         positions_of(case.positions, MOST_DRAWN)
-    error = case.solved.error()
+    error = case.error()
     if error is not None:
         raise error
     with lettered(case.lettering, case.language):

@@ -312,7 +312,7 @@ def solution_of(asked: Request, condition: bool = False, hand: str | Hand | None
         from .hands import drawing
 
         drawn = drawing(case.kind, solved, by_plan, hand)
-    return Solution(case, words, solved, items, used, solved.error(), warnings, conditions, drawn, paper)
+    return Solution(case, words, solved, items, used, case.error(), warnings, conditions, drawn, paper)
 
 
 def _on_paper(case: Case) -> tuple[Solved, str, Mapping[str, Scale], tuple[InputError, ...]]:

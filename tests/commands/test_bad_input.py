@@ -243,6 +243,13 @@ def test_all_settings_that_are_wrong_are_told_at_once() -> None:
     assert "no given 'l_XX'" in caught.value.text("en")
 
 
+def test_metres_for_millimetres_are_told_also_where_nothing_can_be_assembled_of_them(run: Run) -> None:
+    status, out, err = run("solve", TASK, "-v", "3", "--set", "l_AB=0,2")
+
+    assert (status, out) == (3, "")
+    assert err.startswith("l_AB: 0.2 mm is far from what the variants") and "cannot be assembled in this position" in err
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})

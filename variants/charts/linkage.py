@@ -56,7 +56,7 @@ def _cycle_of(scene: Scene) -> Cycle:
 
 def _unreachable(case: Case) -> PositionError:
     """Return why there is no position to look at."""
-    return case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
+    return case.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
 
 
 def _accuracy(scene: Scene) -> AccuracyChart:

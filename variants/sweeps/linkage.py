@@ -90,7 +90,7 @@ class Sweep(Swept):
     @property
     def reason(self) -> PositionError | None:
         """Why no position at all can be assembled, or None."""
-        return None if self.cycle.reach.stretches else self.case.solved.error()
+        return None if self.cycle.reach.stretches else self.case.error()
 
     @of_its_kinds()
     def diagrams(self, of: str | int, sections: int = SECTIONS) -> Diagrams:
@@ -189,7 +189,7 @@ class Sweep(Swept):
         Refused is a position of the task's own, which the plan of positions shows, that has no plan.
         """
         case, words = self.case, self.words
-        error = case.solved.error()
+        error = case.error()
         if error is not None:
             raise error
         run = self.cycle
