@@ -111,8 +111,9 @@ class Words:
 
     def short(self, value: float, digits: int = 12) -> str:
         """Return a number as short as it is, such as a given."""
-        if 1e-4 <= abs(value) < 10.0 ** min(digits, 15) or value == 0:
-            return self.decimal(f"{value:.{digits}g}")
+        text = f"{value:.{digits}g}"
+        if "e" not in text:
+            return self.decimal(text)
         decimals = min(max(digits - 1 - math.floor(math.log10(abs(value))), 0), 40)  # without an exponent
         text = f"{value:.{decimals}f}"
         return self.decimal(text.rstrip("0").rstrip(".") if decimals else text)

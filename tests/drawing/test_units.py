@@ -267,3 +267,11 @@ def test_numbers_are_as_short_as_twelve_digits_are() -> None:
     numbers = 0.1 + 0.2, 2.0 / 3.0, 2e-5 / 3.0, 12.0, 0.0
 
     assert [*map(Words.of("en", "nau").short, numbers)] == ["0.3", "0.666666666667", "0.00000666666666667", "12", "0"]
+
+
+def test_numbers_of_few_digits_have_no_exponent_where_they_are_rounded_up_to_the_next_power_of_ten() -> None:
+    """How many times a scale factor was too large was `1e+02`."""
+    short = Words.of("uk", "nau").short
+
+    assert [short(x, 2) for x in (99.4, 99.999, 100.0, 1 / 0.01000001)] == ["99", "100", "100", "100"]
+    assert [short(-9.9996, 4), short(9.9994e-5, 4), short(9.9996e-5, 4)] == ["−10", "0,00009999", "0,0001"]
