@@ -166,6 +166,8 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
         state = path.stat()
     except (OSError, ValueError) as error:
         if isinstance(task, str) and not re.search(r"[./\\]", task):
+            if os.path.isfile(f"{task}.toml"):
+                raise InputError("task-unknown-like", text=quote(task), like=quote(f"{task}.toml")) from error
             refused = unknown("task-unknown", task, bundled())
             part = any(task.casefold() in one for one in bundled())  # of names, which are told then
             meant = [] if part or refused.key != "task-unknown" else [one["id"] for one in called(task)]

@@ -251,6 +251,18 @@ def test_metres_for_millimetres_are_told_also_where_nothing_can_be_assembled_of_
     assert "cannot be assembled in this position" in err
 
 
+def test_answers_without_their_task_and_a_task_file_without_its_suffix_are_told(
+    folder: Path, refusal: Callable[..., str]
+) -> None:
+    """Answers were text in no UTF-8, or there was nothing to do; of my-own.toml it was told which tasks there are."""
+    for name in ("answers.xlsx", "plans.svg", "my-own.toml"):
+        Path(name).write_bytes(b"PK\xff")
+
+    assert refusal("check", "answers.xlsx").startswith("the task is missing before answers.xlsx")
+    assert refusal("check", "plans.svg", "answers.xlsx", "-v", "3").startswith("the task is missing before plans.svg")
+    assert refusal("solve", "my-own").endswith("did you mean my-own.toml?")
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})

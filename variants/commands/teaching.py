@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -193,7 +194,10 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
     """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern."""
     from ...drawing.writers import check_outputs
     from ..marking.checks import check as ready
+    from ..marking.reading import SUFFIXES
 
+    if task.lower().endswith(SUFFIXES) and os.path.isfile(task):
+        raise InputError("check-no-task", file=quote(task, SHOWN))
     if options["moodle"] is not None:  # before any work
         check_outputs(options["moodle"], known=(".csv",))
     shown = {name: options.pop(name) for name in ("files", "folder", "moodle", "jobs", "as_json")}
