@@ -63,13 +63,18 @@ def unknown(key: str, asked: object, known: Iterable[str], also: Iterable[str] =
     if 2 < len(text) < 100 or folded:
         turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
         having = [name for name in names if text.casefold() in name.casefold()]  # scheme-03, crank-rocker
-        only = having if len(having) == 1 else []
+        begun = [name for name in names if re.match(rf"{re.escape(_bare(text))}(?![^\W_])", _bare(name))]  # scheme-1
+        only = begun if len(begun) == 1 else having if len(having) == 1 else []
         for meant in folded or turned or only or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
             return UnknownNameError(f"{key}-like", text=quote(text), like=Written(meant), **data)
     listed.sort(key=lambda name: len(text) < 3 or text.casefold() not in name.casefold())  # shaper: first what has it
     shown = ", ".join(listed)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST].rpartition(', ')[0]}, …"
     return UnknownNameError(key, text=quote(text), known=Written(shown or "—"), **data)
+
+
+def _bare(text: str) -> str:
+    return re.sub(r"(?<!\d)0+(?=\d)", "", text.casefold())
 
 
 def named(text: str, known: Iterable[str]) -> str:

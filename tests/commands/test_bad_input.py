@@ -263,6 +263,34 @@ def test_answers_without_their_task_and_a_task_file_without_its_suffix_are_told(
     assert refusal("solve", "my-own").endswith("did you mean my-own.toml?")
 
 
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [("scheme-1", "scheme-01-compressor"), ("Scheme-009", "scheme-09-shaper"), ("scheme-011", "scheme-11-slotter")],
+)
+def test_the_number_of_a_scheme_may_be_written_without_its_zero(
+    typed: str, meant: str, refusal: Callable[..., str]
+) -> None:
+    """Of scheme-1 it was asked whether scheme-11-slotter is meant."""
+    assert refusal("new", "x.toml", "--from", typed).endswith(f"did you mean {meant}?")
+    assert refusal("solve", typed).endswith(f"did you mean {meant}?")
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        (("sheet", TASK, "-o", "x.pdf", "--only", "position", "velocity"), "--only velocity"),
+        (("variants", TASK, "--quantities", "V_B", "a_B"), "--quantities a_B"),
+        (("sheet", TASK, "3", "--only", "velocity", "-o", "x.pdf"), "-v 3"),
+        (("sheet", TASK, "-o", "x.pdf", "y.svg"), "-o y.svg"),
+    ],
+)
+def test_a_word_too_many_is_told_with_its_option(
+    command: tuple[str, ...], told: str, refusal: Callable[..., str]
+) -> None:
+    """A plan was taken for a variant."""
+    assert refusal(*command).endswith(f"was {told} meant?")
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})

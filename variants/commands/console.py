@@ -332,6 +332,9 @@ def usage_error(error: click.UsageError, words: Sequence[str], commands: click.G
     extra = re.search(r"unexpected extra arguments? \((.*)\)", error.message, re.DOTALL)
     if extra:
         meant = "--set" if "=" in extra[1] else "-o" if "." in extra[1] else "-v"  # which many leave out
+        lists = {name for one in called.params if str(one.metavar).endswith(",...") for name in one.opts}
+        behind = words[words.index(extra[1]) - 2] if extra[1] in words[2:] else ""  # of a list without its commas
+        meant = behind if behind in lists else meant
         if " " not in extra[1] and any(meant in one.opts for one in called.params):
             return InputError("cli-extra-of", text=quote(extra[1]), option=meant)
         return InputError("cli-extra", text=quote(extra[1]), command=command)
