@@ -201,6 +201,27 @@ def test_a_range_is_read_in_every_usual_form(text: str) -> None:
             _ranges_of(load_task(TASK), {"l_OA": bad})
 
 
+@pytest.mark.parametrize(
+    ("name", "text", "low", "high", "step"),
+    [
+        ("n_1", "700..760 об/мин", 700, 760, None),
+        ("n_1", "700 об/хв..760 об/хв", 700, 760, None),
+        ("n_1", "10..12/0,5 об/с", 600, 720, 30),
+        ("omega", "60..80/5 рад/с", 60, 80, 5),
+        ("omega", "60..80 1/с", 60, 80, None),
+        ("J_S2", "100..200/50 kg*cm^2", "0.01", "0.02", "0.005"),
+        ("J_S2", "1e-2..2e-2 кг·м²", "0.01", "0.02", None),
+    ],
+)
+def test_the_unit_of_a_range_may_have_a_slash_a_figure_or_a_power(
+    name: str, text: str, low: float, high: float, step: float | None
+) -> None:
+    found = _ranges_of(load_task("madi-cam" if name == "omega" else TASK), {name: text})[name]
+
+    assert (found.low, found.high) == (Decimal(low), Decimal(high))
+    assert step is None or found.step == Decimal(step)
+
+
 def test_ranges_about_the_only_variant_of_a_task_have_round_steps_some_twenty_of_them() -> None:
     ranges = _ranges_of(load_task("bertyaev-six-bar"), {})
 

@@ -7,7 +7,7 @@ import math
 import os
 import random
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cache
@@ -38,6 +38,8 @@ _PARTED = re.compile(r"[,:;()\[\]]")  # parts of a header: what it is, its symbo
 PLAIN = "1"  # a unit of numbers that have none
 NOTHING = frozenset(UNDERSTOOD["none"])  # in the place of a unit
 _BETWEEN = re.compile(r"\.\.\.?|…|–")  # the first and the last value of a range
+_STEP = re.compile(r"/(?!\s*[^\W\d])")  # what its step stands behind: no slash of a unit, rad/s, 1/s
+_UNIT = re.compile(r"[\s\d.,+\-−]*?(?:\d[eE][+-]?\d+)?\s*((?:1/)?(?:[^\W\d]|°).*)?$", re.DOTALL)  # behind a number
 _HEADER = re.compile(r"\s*\[")
 _VARIANT = re.compile(r"\s*\[\[\s*variant\s*\]\]|\s*\[\s*variant\s*\.")
 _ARRAY = re.compile(r"\s*variant\s*=\s*\[")
@@ -243,11 +245,11 @@ def _read(given: Given, text: str, usual: _Range | None) -> _Range:
     between = _BETWEEN.search(text.strip(), 1)
     if between is None:
         raise InputError("range-bad", text=quote(text))
-    first, (last, slash, by) = text.strip()[: between.start()], text.strip()[between.end() :].partition("/")
-    if not first.strip() or not last.strip() or bool(slash) != bool(by.strip()):
+    parts = [text.strip()[: between.start()], *_STEP.split(text.strip()[between.end() :], maxsplit=1)]
+    if not all(part.strip() for part in parts):
         raise InputError("range-bad", text=quote(text))
-    low, high = (_value(given, part.strip(), text) for part in (first, last))
-    step = _value(given, by.strip(), text) if by else None
+    low, high, *steps = _values(given, [part.strip() for part in parts])
+    step = steps[0] if steps else None
     if low > high or (step is not None and step <= 0):
         raise InputError("range-bad", text=quote(text))
     row = usual.row if usual is not None and step is None else ()
@@ -256,13 +258,14 @@ def _read(given: Given, text: str, usual: _Range | None) -> _Range:
     return _Range(given.unit.behind, low, high, step, row)
 
 
-def _value(given: Given, part: str, whole: str) -> Decimal:
-    """Return the value of a part of a range, in the unit that stands at the end of the whole where it has none."""
-    unit = re.search(r"[^\s.,/+\-eE].*", re.split(r"\d", whole)[-1], re.DOTALL)
-    value = given.read(part if unit is None or re.search(r"[^\W\d]|°", part) else f"{part} {unit[0]}")
+def _values(given: Given, parts: Sequence[str]) -> Iterator[Decimal]:
+    """Go through the values of the parts of a range, in the unit of the last of them where one has none."""
+    units = [found[1] or "" if (found := _UNIT.match(part)) else "" for part in parts]
     assert given.unit is not None
-    assert isinstance(value, float)
-    return _decimal(given.unit.from_si(value))
+    for part, own in zip(parts, units, strict=True):
+        value = given.read(part if own else f"{part} {units[-1] or units[-2]}".strip())
+        assert isinstance(value, float)
+        yield _decimal(given.unit.from_si(value))
 
 
 def _spanned(task: Task, name: str, given: Given) -> _Range | None:
