@@ -235,6 +235,15 @@ def test_a_form_saved_by_an_old_spreadsheet_comes_back(tmp_path: Path, language:
     assert answers.lines["a_B"].value == answers.lines["M_bal"].value == pytest.approx(20.0)
 
 
+def test_a_form_in_english_saved_by_a_western_spreadsheet_keeps_accents_and_squares(tmp_path: Path) -> None:
+    rows = [["student", "Müller Zoë"], ["quantity", "value", "unit"], ["a_B", "339.4", "m/s²"], ["V_B", "5.62", "m/s"]]
+
+    answers = one(tmp_path, table(rows, ",").encode("cp1252"))
+
+    assert (answers.who.student, answers.problems) == ("Müller Zoë", ())
+    assert answers.lines["a_B"].value == pytest.approx(339.4)
+
+
 def test_a_form_may_have_its_columns_in_any_order_names_alike_and_answers_twice(tmp_path: Path) -> None:
     ordered = one(tmp_path, "direction,unit,value,Quantity,мм,масштаб\n180,m/s,2.76,V_B,55.2,0.05\n").lines["V_B"]
     alike = one(tmp_path, f"{HEAD}V_В;55;;2,76;;\n")  # with a Cyrillic letter

@@ -91,11 +91,11 @@ def _told(rows: list[tuple[str, ...]]) -> tuple[int, int, int]:
 
 
 def _decoded(file: str, data: bytes) -> str:
-    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows; none has a NUL."""
+    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows, or of Western; none has a NUL."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encodings: tuple[str, ...] = ("utf-16",)
     else:
-        encodings = ("utf-8-sig", "cp1251")
+        encodings = ("utf-8-sig", *(("cp1252",) if _is_western(data) else ()), "cp1251")
     for encoding in encodings:
         try:
             text = data.decode(encoding)
@@ -104,6 +104,17 @@ def _decoded(file: str, data: bytes) -> str:
         if "\0" not in text:
             return text
     raise InputError("answers-encoding", file=quote(file, SHOWN))
+
+
+def _is_western(data: bytes) -> bool:
+    """Whether a text of Windows is none in Cyrillic: read so, more of its words have letters of both scripts.
+
+    >>> _is_western("Müller;m/s²".encode("cp1252")), _is_western("Мельник;V_А".encode("cp1251"))
+    (True, False)
+    """
+    words = re.findall(r"[^\W\d_]{2,}", data.decode("cp1251", "replace"))
+    scripts = Counter((bool(re.search("[A-Za-z]", word)), not word.isascii()) for word in words)
+    return scripts[True, True] > scripts[False, True]
 
 
 def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
