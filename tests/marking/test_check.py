@@ -610,6 +610,22 @@ def test_the_first_wrong_step_is_one_that_is_asked_for(tmp_path: Path, run: Run)
     assert other["first_wrong"] == "a_BA_n"
 
 
+def test_an_error_that_is_not_asked_for_counts_once_in_the_first_line_asked_that_carries_it(tmp_path: Path) -> None:
+    """Revolutions per minute in place of radians per second gave full marks for *V_B* and *ω_2* alone."""
+    of, names = key(TASK, "3"), ("omega_1", "V_A", "V_BA", "V_B", "omega_2")
+    asked = ["V_B", "omega_2"]
+    checked = check(TASK, "3", lang="en", rubric=rubric(tmp_path, f"asked = {asked}\n"))
+    for times, verdict in ((30.0 / math.pi, "scale"), (3.0, "wrong")):  # rpm is taken for a unit, as elsewhere
+        fast = {name: f"{name};;;{times * abs(of[name]):.6g};;\n" for name in names}
+        rows = ["".join(fast[name] for name in own) for own in (names, asked)]
+
+        whole, short = (checked.mark(read(tmp_path, own, "3")).marked for own in rows)
+
+        assert {line.name: str(line.verdict) for line in whole.lines} == {"V_B": verdict, "omega_2": "carried"}
+        assert whole.marking.first_wrong == "V_B"
+        assert short.mark <= whole.mark < 100.0  # from *V_B* alone nobody can say what *ω_2* follows from
+
+
 def test_numbers_of_a_rubric_may_have_a_decimal_comma_in_quotes(tmp_path: Path) -> None:
     of = [read_rubric(rubric(tmp_path, f"[weights]\nV_B = {text}\n"), "normal", ASKED) for text in ("3.5", '"3,5"')]
 

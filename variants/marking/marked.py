@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.drawn import Recognised
-from ...plans.marking.key import Key
+from ...plans.marking.key import Key, hanging_on
 from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...plans.names import LEVER
@@ -120,6 +120,24 @@ def _counted_once(
         for line in marking.lines
     )
     return replace(marking, lines=lines, first_wrong=first_wrong(lines, marking.marker)), bearers
+
+
+def _borne_where_asked(marking: Marking, asked: Collection[str]) -> Marking:
+    """Return the marking in which an error of a line that is not asked is one of the first line asked that carries it.
+
+    It would count nowhere: whoever has all numbers wrong from one error before would have full marks.
+    """
+    bits, places = hanging_on(marking.key), marking.key.paper.program.places
+    carried = [line.name for line in marking.lines if line.name in asked and line.verdict is Verdict.CARRIED]
+    borne: dict[str, Verdict] = {}
+    for line in marking.lines:
+        if line.verdict.faulty and line.name not in asked:
+            bearer = next((name for name in carried if bits[line.name] >> places[name] & 1), "")
+            borne.setdefault(bearer, Verdict.SCALE if line.verdict is Verdict.SCALE else Verdict.WRONG)
+    lines = (
+        replace(line, verdict=borne[line.name], about="size") if line.name in borne else line for line in marking.lines
+    )
+    return replace(marking, lines=tuple(lines))
 
 
 def _fits_other(marking: Marking, given: Sequence[Answer], others: Iterable[str], key: Callable[[str], Key]) -> str:
@@ -361,6 +379,7 @@ class Desk:
         fits = on_drawing.fits if on_drawing else ""
         fits = fits or _fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
+        marking = _borne_where_asked(marking, rubric.asked) if rubric.asked else marking
         lines = counted()
         if rubric.asked:  # what else was answered may explain, but nobody has asked for it
             marking = replace(marking, first_wrong=first_wrong(lines, marking.marker))
