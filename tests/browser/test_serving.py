@@ -8,9 +8,13 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+import pypdfium2
 import pytest
 
 import kulman
+from kulman.variants.marking.class_page import ClassPage
+from kulman.variants.marking.result import Result
+from kulman.variants.roster import Who
 from kulman.variants.shelf import GUIDES
 
 TASK = "nau-slider-crank"
@@ -130,6 +134,26 @@ def test_a_teacher_draws_a_class_and_marks_it(page: Any, tmp_path: Path) -> None
     assert "І. Петренко" in page.locator(".lines").inner_text()
     followed(page, "a[href$='/class.html']")
     fault_free(page)
+
+
+def test_the_page_about_a_class_fits_the_window_and_the_paper(browser: Any) -> None:
+    """What a teacher is to check was cut off at the edge of the paper, behind long names of files; its table began on
+    the second page.
+    """
+    asked = kulman.check(TASK, "3", lang="uk")
+    who = [Who(f"Нечипоренко-Задунайський Святослав Володимирович {n}", "АТ-301") for n in range(40)]
+    odd = f"works/{'_'.join(['Нечипоренко-Задунайський'] * 4)}.xlsx: бланк порожній"
+    lines = [Result("a.csv", one, "3", mark=None if n else 50.0, notes=(odd,)) for n, one in enumerate(who)]
+    page = browser.new_page(viewport={"width": 1000, "height": 800})
+    page.set_content(ClassPage(asked.request, asked.rubric, lines, lambda one: pytest.fail(one.source)).html())
+
+    assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
+    pages = pypdfium2.PdfDocument(page.pdf(prefer_css_page_size=True))
+    page.close()
+    texts = [one.get_textpage().get_text_bounded() for one in pages]
+    assert "Володимирович 0" in texts[0]
+    assert "Оцінки групи" not in texts[1]
+    assert all(abs(one.get_width() - 297.0 / 25.4 * 72.0) < 1.0 for one in pages)  # A4 on its side
 
 
 @pytest.mark.parametrize("path", ["?lang=en", f"task/{TASK}?v=3", f"task/{TASK}/check?v=3", "own?kind=cam", "class"])
