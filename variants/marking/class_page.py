@@ -22,7 +22,8 @@ PICTURED = 5  # mistakes that have a picture
 BARS = 10  # of the distribution
 BAR, HIGH, FOOT = 14.0, 40.0, 6.0  # mm: width of a bar, the highest, room below for numbers
 OWN_STYLE = """
-@page{size:A4 landscape;margin:10mm}body{max-width:277mm}td{overflow-wrap:anywhere}tr,li{break-inside:avoid}ol li{margin-bottom:4mm}td.m{text-align:right;font-weight:bold}
+@page{size:A4 landscape;margin:10mm}body{max-width:277mm}td{overflow-wrap:anywhere}tr,li{break-inside:avoid}
+ol li{margin-bottom:4mm}td.m{text-align:right;font-weight:bold}
 td:nth-child(2){min-width:58mm}td:nth-child(3){white-space:nowrap}td:nth-last-child(-n+2){min-width:40mm}
 svg.bars{width:auto;height:52mm;border:0}svg.bars rect{fill:#0072b2}svg.bars text{font:3.5px Arial,sans-serif;
 text-anchor:middle}figure{margin:2mm 0}figure svg{width:150mm;max-height:130mm}figcaption{font-size:9pt}
