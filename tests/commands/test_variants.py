@@ -88,6 +88,18 @@ def test_what_cannot_be_done_is_said_in_a_line(arguments: list[str], said: str, 
     assert list(folder.iterdir()) == []
 
 
+def test_the_key_of_all_variants_has_the_millimetres_of_the_format_that_is_printed(tmp_path: Path, run: Run) -> None:
+    asked = ("--quantities", "R_12_t", "--format", "A4", "-v", "3", "--lang", "en")
+    status, *_ = run("variants", "nau-slider-crank", *asked, "-o", str(tmp_path / "key.html"))
+
+    page = (tmp_path / "key.html").read_text(encoding="utf-8")
+    blank, sheet = (solve("nau-slider-crank", "3", format=name)["R_12_t"].mm or 0.0 for name in ("A4", None))
+    assert status == 0
+    assert "as on a sheet of the format A4" in page
+    assert blank < sheet
+    assert f"<small>{blank:.1f} mm</small>" in page
+
+
 @pytest.mark.soak
 def test_the_key_of_all_variants_is_a_page_to_print(tmp_path: Path) -> None:
     page = all_variants("nau-slider-crank", lang="en").save(tmp_path / "key.html")[0].read_text(encoding="utf-8")

@@ -96,6 +96,7 @@ def _markers(files: tuple[Path, ...], tile: str | None, options: dict[str, Any])
 @click.option("--from", "table", metavar="FILE", shell_complete=helping.files)
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @click.option("--by", type=console.Word("variant", "quantity"), default="variant", show_default=True)
+@console.sized()
 @console.output(".making.all_variants")
 @console.as_json
 def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:

@@ -224,6 +224,7 @@ def all_variants(
     by: str = BY[0],
     notation: str | None = None,
     lang: str = "uk",
+    format: str | None = None,
     advance: Advance | None = None,
 ) -> AllVariants:
     """Solve all variants of a task: those that it has, or new ones.
@@ -247,6 +248,8 @@ def all_variants(
         Those wanted, `"V_B,a_B"`; without it all that a form asks for.
     preset : str
         What a question lets pass: what 98 % of drawings keep of a hand that is `cad`, `careful`, `normal`, `lenient`.
+    format : str, optional
+        That of the sheet or blank whose segments the key has, `"A4"`; without it the smallest that holds everything.
     by : {"variant", "quantity"}
         What a category of questions holds: one variant, or one quantity of all variants, of which a quiz draws one.
 
@@ -266,7 +269,7 @@ def all_variants(
     if make is not None:
         new = make_variants(task, make, ranges, set=set, seed=1 if seed is None else seed, advance=advance)
     of = task if new is None else new.task
-    asked = check(of, set=set, only=only, scales=scales, preset=preset, notation=notation, lang=lang)
+    asked = check(of, set=set, only=only, scales=scales, preset=preset, notation=notation, lang=lang, format=format)
     request = asked.request
     keys: dict[str, Keyed] = {}
     problems: dict[str, KulmanError] = {}
