@@ -19,6 +19,7 @@ from .wording import plain, script_runs, texts
 PLACES = (0.5, 0.36, 0.64, 0.22, 0.78)  # along a vector, the best first
 GAP = 0.8  # mm from the line
 HEIGHT, WIDTH = 3.6, 1.8  # mm, of a line of text, and of a letter on the average
+SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○", Verdict.MISSING: "–"}  # of others ✗
 
 
 class Box(NamedTuple):
@@ -106,8 +107,9 @@ class _Vector:
     @property
     def text(self) -> str:
         """Its symbol, marked where the line is not simply right."""
-        right = self.line is None or self.line.verdict is Verdict.RIGHT
-        return self.symbol + ("" if right else " ✓" if self.kind == "own" else " ✗")
+        if self.line is None or self.line.verdict is Verdict.RIGHT:
+            return self.symbol
+        return f"{self.symbol} {SIGNS.get(self.line.verdict, '✗')}"
 
 
 def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str, str]]:

@@ -20,8 +20,8 @@ from ...drawing.text import Box as LetterBox
 from ...drawing.text import escape, lay_out
 from ...drawing.writers import page_files
 from ...plans.marking.answers import Line as Judged
-from ...plans.marking.answers import Verdict
 from ...plans.marking.lines import Drawn, Letter
+from .figures import SIGNS
 from .marked import Marked
 from .wording import texts
 
@@ -33,7 +33,6 @@ SMALL, PART = 3.5, 1.0 / 200.0  # mm of a letter at the least; its part of a pag
 WIDE = 0.7  # of a letter's width, of its height
 SHOWN = 0.4  # letters: the radius of a circle at an end that somebody has shown
 SAMPLE, ROW = 16.0, 1.9  # of the legend: length of a line in mm, height of a row in letters
-MARKS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○"}
 
 
 def marked_files(marked: Marked, language: str, own: bool, path: Path) -> Iterator[tuple[Path, bytes]]:
@@ -132,7 +131,7 @@ def over(marked: Marked, found: Sequence[Vector], height: float) -> Iterator[Sha
         low, high = (letter.place - half) / times, (letter.place + half) / times
         return low.real, low.imag, high.real, high.imag
 
-    texts_of = [f"{words.symbol(line.name)} {MARKS.get(line.verdict, '✗')}" for line, *_ in found]
+    texts_of = [f"{words.symbol(line.name)} {SIGNS.get(line.verdict, '✗')}" for line, *_ in found]
     layouts = [lay_out(text, SMALL) for text in texts_of]
     ends = [(tail / times, tip / times) for _, tail, tip, _ in found]
     requests = [

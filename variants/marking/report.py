@@ -24,7 +24,7 @@ from ..drawings.files import SUFFIXES as DRAWINGS
 from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import Saved, aligned
-from .figures import plan_figures
+from .figures import SIGNS, plan_figures
 from .keyed import Rubric, is_arm_of_lever
 from .marked import Marked, Misfit
 from .wording import letter, mistake_texts, plain, script_runs, texts
@@ -348,7 +348,6 @@ def report_text(report: Report) -> str:
 
 
 TAGS = {0: "", 1: "sup", -1: "sub"}
-SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○", Verdict.MISSING: "–"}
 STYLE = """
 body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
 h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
