@@ -302,6 +302,9 @@ FOUR_BAR = sheet_id(load_task("madi-four-bar"), "17")
         ("Кривошипно-повзунний механізм", "", "V_C;;;1;;\n", ""),
         ("madi-four-bar", sheet_id(load_task(TASK), "5"), "", ""),  # with the id of a sheet of this task
         ("3", "", "", ""),
+        ("our-class", "2SW-4SG", "", "our-class"),  # of the same mechanism with other numbers: neither is of this task
+        ("our-class", sheet_id(load_task(TASK), "5"), "", ""),
+        ("3", "T3K-12H", "", ""),
         ("", "T3K-12H", "", ""),  # miscopied
     ],
 )

@@ -206,7 +206,8 @@ class Marked:
 def _other_task(task: Task, answers: Answers) -> str:
     """Return the other task that answers are for: what their file says, or whose sheet id it has; else nothing.
 
-    A head that somebody has edited names no task that there is, and what is answered is asked here.
+    A head that somebody has edited names no task that there is, and what is answered is asked here. Where the sheet id
+    is none of this task's, either, both are of a task file that is not the one given.
     """
     written, sheet = answers.about.get("task", ""), answers.about.get("sheet", "")
     if written.casefold() == task.id.casefold() or (sheet and variant_of_id(task, sheet)):
@@ -214,7 +215,8 @@ def _other_task(task: Task, answers: Answers) -> str:
     strange = sum(problem.key.startswith("quantity-unknown") for problem in answers.problems)
     known = next((name for name in bundled() if name.casefold() == written.casefold()), "")
     known = known or (sheet and task_of_id(sheet)) or ""
-    return written if not known and strange > STRANGE * (strange + len(answers.lines)) else known
+    elsewhere = (sheet and not written.isdigit()) or strange > STRANGE * (strange + len(answers.lines))
+    return written if not known and elsewhere else known
 
 
 def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
