@@ -162,6 +162,16 @@ def test_what_is_short_wherever_a_crank_stands_is_looked_for_in_no_more_places_t
     assert looked == [60, 180, 240]  # where it has none, none is short wherever the crank stands
 
 
+def test_an_acceleration_that_cannot_be_seen_on_its_plan_makes_a_poor_exercise() -> None:
+    values = {"phi": "105°", "l_OA": "55 mm", "l_AB": "190 mm", "l_AS2": "61 mm"}  # *a_B* is 0.5 m/s² beside 861
+    fit, poor = (solve_case(TASK, "3", {**values, "phi": phi}, None, None) for phi in ("75°", "105°"))
+
+    assert [[error.text("en") for error in case.kind.unfit(case)] for case in (fit, poor)] == [
+        [],
+        ["a_B is next to nothing: it cannot be seen on its plan"],
+    ]
+
+
 def test_variants_that_all_stand_in_dead_positions_make_others_that_do_not(tmp_path: Path) -> None:
     shared = {
         "l_AB": "180 mm",

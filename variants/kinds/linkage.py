@@ -418,10 +418,16 @@ def _dead(case: Case) -> tuple[SolvedLinkage, ...]:
 
 
 def _short_vectors(solved: SolvedLinkage) -> set[str]:
-    """Return the velocities that are next to nothing beside the longest one of their plan."""
-    own = (item for name, item in solved.quantities.items() if solved.shown_on.get(name) == "velocity")
-    sizes = {item.name: item.value or 0.0 for item in own if item.kind == "vector"}
-    return {name for name, size in sizes.items() if size < SHORT * max(sizes.values())}
+    """Return the velocities and accelerations that are next to nothing beside the longest one of their plan.
+
+    Parts of an acceleration, normal or of Coriolis, often are.
+    """
+    short = set[str]()
+    for plan in ("velocity", "acceleration"):
+        own = (item for name, item in solved.quantities.items() if solved.shown_on.get(name) == plan)
+        sizes = {item.name: item.value or 0.0 for item in own if item.kind == "vector"}
+        short |= {name for name, size in sizes.items() if size < SHORT * max(sizes.values()) and not role(name).part}
+    return short
 
 
 def _degrees(angle: float) -> str:
