@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from copy import copy
 from dataclasses import dataclass, field, replace
 from statistics import median, median_high, median_low
 from typing import Any, NamedTuple
@@ -211,12 +210,17 @@ class Marker:
         marker.begin()
         return marker
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what begins to mark the same answers in another process, under the key drawn to their scales."""
+        return Marker.begun, (self.key, [*self.answers.values()], False)
+
     def again(self, key: Key, anew: Collection[str], steps: tuple[Step, ...]) -> Marker:
         """Return what marks the same answers under another key: `steps`, that make names `anew`; else all is as here.
 
         No scale factor is guessed.
         """
-        made = copy(self)
+        made = Marker.__new__(Marker)
+        vars(made).update(vars(self))
         made.key = key
         made.begin(self, anew, steps)
         return made

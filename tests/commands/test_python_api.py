@@ -403,6 +403,20 @@ def test_answers_are_marked_as_a_mapping_too(solution: Solution) -> None:
             checked.mark(wrong)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("task", [TASK, "madi-cam", "madi-gear", "karpenko-hoist"])
+def test_a_report_crosses_to_another_process_whole(task: str) -> None:
+    """A class may be marked by a pool of processes, whose results are sent back."""
+    checked = kulman.check(task, lang="en")
+    first, second = list(checked.asked.quantities)[:2]
+    report = checked.mark({first: 1.0, second: 2.0})
+    same = pickle.loads(pickle.dumps(report))
+
+    assert (same.mark, same.text(), same._repr_html_()) == (report.mark, report.text(), report._repr_html_())
+    marker, again = report.marked.marking.marker, same.marked.marking.marker
+    assert (again.mus, again.written, again.segments) == (marker.mus, marker.written, marker.segments)
+    assert repr([*again.lines()]) == repr([*marker.lines()])
+
+
 def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:
     for call in (kulman.note, kulman.handout, kulman.sweep):
         with pytest.raises(KulmanError, match="unknown argument 'studnt'; did you mean student"):
