@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, Self
 
 import numpy as np
@@ -14,6 +14,18 @@ from .units import converted, unit
 Floats = NDArray[np.floating[Any]]
 PART = 4096  # rows of text at a time
 Method = Literal["__call__", "reduce", "reduceat", "accumulate", "outer", "at"]
+
+
+def _bare(value: Any) -> Any:
+    """Return plain arrays for series, also those in a list or a tuple."""
+    if isinstance(value, Series):
+        return np.asarray(value)
+    return type(value)(map(_bare, value)) if type(value) in (list, tuple) else value
+
+
+def _places(method: str) -> Callable[..., Any]:
+    """Return a method of a plain array that tells places: they have neither name nor unit."""
+    return lambda series, *arguments, **kwargs: getattr(np.asarray(series), method)(*arguments, **kwargs)
 
 
 class Series(np.ndarray[Any, np.dtype[Any]]):
@@ -37,9 +49,14 @@ class Series(np.ndarray[Any, np.dtype[Any]]):
         return Series, (np.asarray(self), self.name, self.unit)
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: Method, *inputs: Any, **kwargs: Any) -> Any:
-        """Calculate with plain arrays: a product of lengths is no length."""
-        bare = [np.asarray(value) if isinstance(value, Series) else value for value in inputs]
-        return getattr(ufunc, method)(*bare, **kwargs)
+        """Calculate with plain arrays, and into them: a product of lengths is no length."""
+        return getattr(ufunc, method)(*map(_bare, inputs), **{name: _bare(value) for name, value in kwargs.items()})
+
+    def __array_function__(self, function: Any, types: Any, inputs: Iterable[Any], kwargs: Mapping[str, Any]) -> Any:
+        """Let functions of numpy have plain arrays: a gradient of speeds is no speed."""
+        return function(*map(_bare, inputs), **{name: _bare(value) for name, value in kwargs.items()})
+
+    argmax, argmin, argsort, argpartition = map(_places, ("argmax", "argmin", "argsort", "argpartition"))
 
     def to(self, of: str) -> Series:
         """Return the values in another unit, `"mm"`, `"об/хв"`.

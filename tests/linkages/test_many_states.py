@@ -10,6 +10,7 @@ import pickle
 import re
 import sys
 import warnings
+from collections.abc import Callable
 from copy import copy, deepcopy
 from types import SimpleNamespace
 from typing import Any
@@ -344,6 +345,44 @@ def test_a_series_keeps_its_unit_where_it_is_still_the_same_quantity() -> None:
     assert len(repr(np.resize(speeds, 10_000).view(Series))) < 200
     with pytest.raises(KulmanError, match="unit N does not fit"):
         speeds.to("N")
+
+
+def test_what_numpy_makes_of_a_series_has_neither_its_name_nor_its_unit() -> None:
+    speeds = sweep(TASK)["V_B"]
+    plain, before = np.array(speeds), speeds.copy()
+    functions: tuple[Callable[[Any], Any], ...] = (
+        np.gradient,
+        np.argsort,
+        np.zeros_like,
+        np.nan_to_num,
+        lambda array: array.argsort(),
+        lambda array: array.argpartition(3),
+        lambda array: array.searchsorted(array),
+        lambda array: array.nonzero()[0],
+        lambda array: array.reshape(3, 4).argmax(axis=0),
+        lambda array: np.meshgrid(array, array)[0],
+        lambda array: np.interp(array, np.sort(array), np.arange(array.size)),
+        lambda array: np.concatenate([array, array]),
+    )
+
+    for function in functions:
+        assert type(function(speeds)) is np.ndarray
+        assert np.array_equal(function(speeds), function(plain))
+    assert np.array_equal(speeds, before)
+
+
+def test_a_series_is_calculated_with_in_place_as_an_array_is() -> None:
+    speeds = sweep(TASK)["V_B"]
+    plain, out = np.array(speeds), speeds.copy()
+
+    np.multiply(speeds, 3.0, out=out)
+    own = speeds.copy()
+    own += 1.0
+    own /= 2.0
+
+    assert np.array_equal(out, plain * 3.0)
+    assert np.array_equal(own, (plain + 1.0) / 2.0)
+    assert type(own) is np.ndarray
 
 
 class Frame:
