@@ -160,11 +160,19 @@ def test_wrong_arguments_from_python_are_answered_in_one_line(arguments: dict[st
 def test_a_sweep_can_be_asked_from_python(tmp_path: Path) -> None:
     swept = kulman.sweep(TASK, "example", only="acceleration", positions=36)
 
-    assert repr(swept) == "<Sweep nau-slider-crank example: ok, 36 positions>"
+    assert repr(swept) == "<Sweep nau-slider-crank example: 36 positions, 36 with a plan>"
     assert swept.diagrams("B").unit == "m"
     assert swept.save(tmp_path / "a.csv") == [tmp_path / "a.csv"]
     assert swept.cycle.extremes(["V_B"])["V_B"][1].value == 0.0
     assert swept.reason is None
+
+
+def test_a_sweep_of_which_most_positions_have_no_plan_says_so_on_a_prompt() -> None:
+    swept = kulman.sweep(TASK, "3", set={"l_OA": 500}, only="velocity")
+
+    assert repr(swept) == "<Sweep nau-slider-crank 3: 12 positions, 2 with a plan>"
+    assert np.isfinite(swept["V_B"]).sum() == 2
+    assert swept.status == "ok"
 
 
 def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> None:

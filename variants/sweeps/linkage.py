@@ -199,8 +199,9 @@ class Sweep(Swept):
         return sheet_of(case, draw(contents), replace(stamp_of(case), identity="", series=1))
 
     def __repr__(self) -> str:
-        """Return task, variant and the number of positions."""
-        return f"<Sweep {self.task.id} {self.variant}: {self.status}, {len(self.cycle.angles)} positions>"
+        """Return task, variant, the number of positions, and of how many there is a plan."""
+        planned = sum(status in ("ok", "ill-conditioned") for status in self.cycle.statuses)
+        return f"<Sweep {self.task.id} {self.variant}: {len(self.cycle.angles)} positions, {planned} with a plan>"
 
 
 def _place(task: Task, name: str, value: str | float | None) -> float | None:
