@@ -52,8 +52,9 @@ class Status(StrEnum):
 class ManyStates(Arrays):
     """States of one variant; `states["V_B"]` is a `Series` of the shape to which the givens broadcast.
 
-    `given` are the givens that are arrays, SI; `values` what was wanted of each state, vectors and points complex,
-    NaN where there is no plan. `points` are the names that are places, not vectors.
+    `given` are the givens that are arrays, SI; `values` what was wanted of each state, vectors and points complex, NaN
+    where there is no plan. `points` are the names that are places, not vectors. `states["m_2"]` is a given, too, which
+    is the same for all states and has no column.
     """
 
     given: Mapping[str, Array]
@@ -94,6 +95,9 @@ class ManyStates(Arrays):
         for found in (found for found in self.values if name in ("", found, f"{found}.x", f"{found}.y")):
             for part, values in parts_of(self.values[found], found in self.points).items():
                 yield Columned(found if part == "value" else f"{found}.{part}", unit_of(found), values)
+        same = self.task.givens.get(name) if name not in self.given else None
+        if same is not None and same.unit is not None:  # only where it is asked for
+            yield Columned(name, same.unit.si.name, np.broadcast_to(self.case.values[name], self.shape))
 
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         return [*self.arrays()], {"status": self.statuses.ravel().tolist()}
@@ -156,8 +160,9 @@ def solve_many(
         The quantities and points wanted, `"V_B,M_bal"`; all of the plans without it. Fewer are found sooner. A
         component, `"B.x"`, comes with the whole.
     **givens : str, number, array, or a pair of these and a unit
-        The same by keyword, where numbers alone are in SI: `phi=numpy.linspace(0, 6.28, 361)`. They broadcast. In
-        `set` numbers alone would be in the unit of the task, as on the command line: they have to say theirs.
+        The same by keyword, where numbers alone are in SI: `phi=numpy.linspace(0, 6.28, 361)`. They broadcast, and go
+        before `set`, in which numbers alone would be in the unit of the task, as on the command line: they have to say
+        theirs.
 
     Returns
     -------
@@ -227,6 +232,8 @@ def _in_si(given: Given, value: Any) -> Array:
     one = converted(1.0, unit(of), given.unit)
     try:
         plain = np.asarray(own)
+        if plain.dtype == bool:
+            raise TypeError
         plain = plain.astype(float, casting="unsafe" if plain.dtype == object else "same_kind")  # no complex, no text
         array = plain * one
     except (TypeError, ValueError):

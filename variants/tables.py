@@ -272,6 +272,8 @@ class Arrays(OfCase):
         said = self._columns(self.words)[1]
         if name in said:
             return Series(np.reshape(said[name], self.statuses.shape), name, "")
+        if f"{name}.x" in self:
+            raise InputError("quantity-point", text=quote(name))
         raise unknown("quantity-unknown", name, self)
 
     def __iter__(self) -> Iterator[str]:

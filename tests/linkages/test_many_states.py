@@ -169,6 +169,8 @@ def test_words_are_chosen_and_settings_hold_for_all_states() -> None:
         ({"phi": ["a", "b"]}, "type-quantity-array"),
         ({"phi": ["1 deg", "2 deg"]}, "type-quantity-array"),
         ({"phi": np.array([1 + 1j])}, "type-quantity-array"),
+        ({"phi": np.array([True])}, "type-quantity-array"),
+        ({"phi": True}, "type-quantity-array"),
         ({"l_AB": [0.1, -0.1]}, "not-positive"),
         ({"l_AB": [0.1, 0.0, 0.2]}, "not-positive"),
         ({"phi": []}, "array-empty"),
@@ -345,6 +347,29 @@ def test_a_series_keeps_its_unit_where_it_is_still_the_same_quantity() -> None:
     assert len(repr(np.resize(speeds, 10_000).view(Series))) < 200
     with pytest.raises(KulmanError, match="unit N does not fit"):
         speeds.to("N")
+
+
+def test_states_tell_the_givens_that_are_the_same_for_all_of_them() -> None:
+    states = solve_many(TASK, "3", phi=[[0.1], [0.2]], l_AB=([180, 190, 200], "mm"), l_OA="55 mm", names="V_B")
+    alone = solve_many(TASK, "3", phi="75 deg", names="V_B")
+
+    for name in ("l_OA", "m_2", "n_1", "l_AB"):
+        found = states[name]
+        assert (found.shape, found.name, found.unit) == ((2, 3), name, solve(TASK)[name].unit)
+    assert np.all(states["l_OA"] == 0.055)
+    assert np.all(states["m_2"] == solve(TASK, "3")["m_2"].value)
+    assert float(alone["phi"]) == pytest.approx(math.radians(75.0))
+    assert "m_2" not in [*states]  # as of one solution
+    idle = solve_many("scheme-09-shaper", phi=np.linspace(0.0, 6.0, 9), only="forces")
+    assert {0.0, float(idle["F_5"].max())} == {*idle["F_5"].tolist()}  # the force that acts, not the given
+    with pytest.raises(KulmanError, match="there is no quantity 'rotation'"):
+        states["rotation"]
+
+
+def test_the_coordinates_of_a_point_are_named_where_it_is_asked_for_as_a_whole() -> None:
+    for states in (solve_many(TASK, phi=[0.1], names="B"), sweep(TASK)):
+        with pytest.raises(KulmanError, match=r"'B' is a point: its coordinates are 'B\.x' and 'B\.y'"):
+            states["B"]
 
 
 def test_what_numpy_makes_of_a_series_has_neither_its_name_nor_its_unit() -> None:
