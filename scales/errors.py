@@ -84,6 +84,8 @@ def spoken(place: str, language: str) -> str:
 
 def messages(language: str) -> dict[str, str]:
     """Return the templates of all messages in `language`, by key."""
+    if language not in LANGUAGES:
+        raise InputError("language", language=language, known=", ".join(LANGUAGES))
     return packaged(__package__, "messages", language)
 
 

@@ -89,6 +89,8 @@ def load_task(task: AnyTask) -> Task:
     if isinstance(task, Task):
         return task
     of_kind("task", task, (str, os.PathLike), "str | PathLike | Task")
+    if isinstance(task, str) and "\n" in task:
+        raise InputError("task-text")
     named = numbered(task) if isinstance(task, str) and not os.path.exists(task) else task
     if isinstance(named, str) and named in bundled():
         return _load_bundled(named)

@@ -7,9 +7,9 @@ import tomllib
 from collections.abc import Iterator
 from typing import Any
 
-from ..scales.names import of_its_kinds, unknown
+from ..scales.names import all_known, of_its_kinds, unknown
 from ..scales.packaged import home
-from .kinds import table_in
+from .kinds import MODULES, table_in
 
 _TASKS, _GUIDES = home(__package__) / "tasks", home(__package__) / "guides"
 # in the order of reading
@@ -25,7 +25,9 @@ _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
 @of_its_kinds()
 def bundled(kind: str | None = None) -> tuple[str, ...]:
-    """Return the ids of the bundled tasks; only those of one kind where its table is said, `mechanism` or `cam`."""
+    """Return the ids of the bundled tasks; only those of a kind: `mechanism`, `cam`, `gear` or `hoist`."""
+    if kind is not None:
+        all_known("kind-unknown", [kind], MODULES)
     names = (entry.name for entry in _TASKS.iterdir())
     tasks = sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml"))
     return tuple(task for task in tasks if kind is None or kind == table_in(HEADS.findall(bundled_text(task))))

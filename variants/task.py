@@ -8,9 +8,9 @@ import re
 from collections.abc import Mapping, Sized
 from copy import copy
 from dataclasses import dataclass, field
-from numbers import Real
+from numbers import Complex, Number, Real
 from pathlib import Path
-from typing import TYPE_CHECKING, SupportsFloat, TypeAlias, TypeGuard
+from typing import TYPE_CHECKING, Any, SupportsFloat, TypeAlias, TypeGuard, cast
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..plans.quantities import Quantity
@@ -100,15 +100,20 @@ class Given:
 
 def as_text(value: object) -> object:
     """Return a number and its unit, or a quantity that `solve` has found, as the text that says it."""
+    if getattr(value, "ndim", 1) == 0:  # a number, as numpy has it
+        value = cast(Any, value).item()
     if isinstance(value, Quantity) and value.kind != "point":
         value = float(value), value.unit
-    if isinstance(value, tuple) and len(value) == 2 and _is_number(value[0]) and isinstance(value[1], str):
-        return f"{float(value[0])!r} {value[1]}"
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str):
+        number = as_text(value[0])
+        return f"{float(number)!r} {value[1]}" if _is_number(number) else value
     return value
 
 
-def _is_number(value: object) -> TypeGuard[Real]:
-    return isinstance(value, Real) and not isinstance(value, bool)
+def _is_number(value: object) -> TypeGuard[SupportsFloat]:
+    """Whether it is one number without imaginary part, a `Decimal` too, which is none of `numbers.Real`."""
+    real = isinstance(value, Real) or not isinstance(value, Complex)
+    return isinstance(value, Number) and real and not isinstance(value, bool)
 
 
 def decoded(data: bytes) -> str:
@@ -252,7 +257,7 @@ class Task:
         except InputError as error:
             numbers = value[0] if isinstance(value, tuple) and value else value
             several = error.key == "type-quantity" and isinstance(numbers, Sized)
-            several = several and not isinstance(numbers, (str, Mapping))
+            several = several and not isinstance(numbers, (str, Mapping)) and getattr(numbers, "ndim", None) != 0
             raise LocatedError(name, InputError("type-quantities") if several else error) from error
 
     def values(self, variant_id: str | None = None, settings: Settings | None = None) -> dict[str, float]:

@@ -11,6 +11,8 @@ import json
 import pickle
 import re
 from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +36,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "task of bytes": ({"task": b"nau-slider-crank"}, "argument-type"),
     "unknown task": ({"task": "nau-slider-crnk"}, "task-unknown-like"),
     "missing file": ({"task": Path("none.toml")}, "file-missing"),
+    "text of a task file": ({"task": 'id = "x"\n[mechanism]\n'}, "task-text"),
     "unknown variant": ({"variant": "11"}, "variant-unknown"),
     "variant of no kind": ({"variant": ["3"]}, "argument-type"),
     "variant of a float": ({"variant": 3.0}, "argument-type"),
@@ -43,6 +46,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "set to nan": ({"set": {"l_OA": float("nan")}}, "number-bad"),
     "set to None": ({"set": {"l_OA": None}}, "type-quantity"),
     "set to an array": ({"set": {"l_OA": np.array([40.0, 50.0])}}, "type-quantities"),
+    "set to a truth": ({"set": {"l_OA": np.array(True)}}, "type-quantity"),
     "set to no choice": ({"set": {"rotation": 3}}, "choice-unknown"),
     "scale of a text": ({"scales": {"pa": "abc"}}, "number-bad"),
     "scale below zero": ({"scales": {"mu_V": -1}}, "scale-not-positive"),
@@ -415,6 +419,50 @@ def test_a_report_crosses_to_another_process_whole(task: str) -> None:
     marker, again = report.marked.marking.marker, same.marked.marking.marker
     assert (again.mus, again.written, again.segments) == (marker.mus, marker.written, marker.segments)
     assert repr([*again.lines()]) == repr([*marker.lines()])
+
+
+@pytest.mark.parametrize("number", [np.array(55.0), np.float32(55.0), Decimal("55"), Fraction(110, 2), np.int64(55)])
+def test_a_number_of_any_kind_is_a_number(number: Any) -> None:
+    for way in (number, (number, "mm")):
+        assert kulman.solve(TASK, set={"l_OA": way}, only="position")["l_OA"].value == pytest.approx(0.055)
+
+
+def test_the_answers_of_a_solution_are_all_right() -> None:
+    checked, own = kulman.check(TASK, "3", lang="en"), kulman.solve(TASK, "3")
+
+    for answers in (own, dict(own)):
+        assert checked.mark(answers).mark == 100.0
+    with pytest.raises(KulmanError, match="there is no quantity 'V_Q'"):
+        checked.mark({"V_Q": own["V_B"]})
+    with pytest.raises(KulmanError, match="there is no quantity 'O'"):
+        checked.mark({"O": own["B"], "V_B": own["V_B"]})
+
+
+def test_answers_are_read_from_a_path(tmp_path: Path) -> None:
+    checked = kulman.check(TASK, "3", lang="en")
+    form = tmp_path / "answers.csv"
+    form.write_text("name,value\nV_B,5.6\n", encoding="utf-8")
+
+    assert [one.source for one in checked.read(form)] == [one.source for one in checked.read(str(form))]
+    with pytest.raises(KulmanError, match="names: expected PathLike, not int"):
+        checked.read(3)  # type: ignore[arg-type]
+
+
+def test_what_there_is_not_is_refused_in_one_line_wherever_it_is_asked_for() -> None:
+    charts = kulman.chart(TASK, chart="depth", positions=36)
+    with pytest.raises(KulmanError) as caught:
+        kulman.solve("none.toml")
+    for asked, line in (
+        (lambda: caught.value.text("de"), "unknown language 'de'; known are: uk, ru, en"),
+        (lambda: charts["depht"], "unknown chart 'depht'; did you mean 'depth'"),
+        (lambda: kulman.tasks("cams"), "unknown kind of task 'cams'; did you mean 'cam'"),
+        (lambda: kulman.tasks("lever"), "unknown kind of task 'lever'; known are: mechanism, cam, gear, hoist"),
+    ):
+        with pytest.raises(KulmanError) as refused:
+            asked()
+        assert line in str(refused.value)
+    assert repr(charts["depth"]) == "<Chart depth>"
+    assert kulman.tasks("gear") == ("madi-gear",)
 
 
 def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:

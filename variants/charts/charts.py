@@ -90,6 +90,10 @@ class Chart(ABC, Generic[Found]):
     scene: Scene
     found: Found
 
+    def __repr__(self) -> str:
+        """Return which one it is."""
+        return f"<Chart {self.heading.removeprefix('chart.')}>"
+
     def table(self, words: Words) -> str:
         """Return it as text: its parts, then what the numbers mean."""
         return "\n\n".join(part for part in (*self._parts(words), textwrap.fill(self.note(words), LINE)) if part)
@@ -282,6 +286,7 @@ class Charts(OfCase):
 
     def __getitem__(self, name: str) -> Chart[Any]:
         """Return a chart by its name."""
+        all_known("chart-unknown", [name], self.charts)
         return self.charts[name]
 
     def table(self, language: str | None = None) -> str:

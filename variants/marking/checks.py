@@ -110,7 +110,7 @@ class Check(Terms):
         return save_form(file, TABLES, rows, language, task.id, bold, frozen)
 
     @of_its_kinds()
-    def read(self, *names: str, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
+    def read(self, *names: PathLike, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
         """Read the answers in files, folders, patterns.
 
         Parameters
@@ -124,7 +124,7 @@ class Check(Terms):
         InputError
             Nothing can be read.
         """
-        found = read_all(names, self.request.task.id, self.asked, warn)
+        found = read_all([os.fspath(name) for name in names], self.request.task.id, self.asked, warn)
         often, sheets = Counter(one.source for one in found if one.photos), dict[str, list[Entry]]()
         if self.roster is not None and max(often.values(), default=1) > 1:
             for entry in self.roster.entries:
@@ -209,6 +209,8 @@ class Check(Terms):
 
     def mark(self, answers: Answers | Mapping[str, Quantity | str | float]) -> Report:
         """Mark one student: answers that have been read, or values by quantity, `{"V_B": "2,03 m/s"}`, numbers in SI.
+
+        A `Solution` may stand for them, too: what is asked of it.
 
         Raises
         ------

@@ -185,9 +185,16 @@ def _has_unit(name: str, written: str, asked: Asked) -> bool:
 
 
 def answers_of(said: Mapping[str, Any], asked: Asked) -> Answers:
-    """Return the answers of a mapping by quantity: a `Quantity`, a text with its unit, a number in SI."""
+    """Return the answers of a mapping by quantity: a `Quantity`, a text with its unit, a number in SI.
+
+    What a solution has and nobody is asked for, points and lengths, is no answer.
+    """
     rows = [("name", "value", "unit")]
     for name, value in said.items():
+        if isinstance(value, Quantity) and value.name == name and name not in asked.names:
+            continue
+        if isinstance(value, Quantity) and value.kind == "point":
+            raise unknown("quantity-unknown", name, asked.names)
         if isinstance(value, Quantity):
             rows.append((name, f"{float(value)!r}", value.unit))
         elif isinstance(value, str):
