@@ -144,13 +144,24 @@ def _processes(begin: Begin[Any, Any], most: int, afresh: bool, at_once: int) ->
 
 @contextmanager
 def without_script() -> Iterator[None]:
-    """Keep a process that is started from running the user's script once more: nothing that it needs stands there."""
+    """Keep a process that is started from running the user's script once more: nothing that it needs stands there.
+
+    Nor does it hear of Ctrl+C, which it would die of with a traceback until it ignores that by itself.
+    """
     script: dict[str, Any] = vars(sys.modules["__main__"])
     kept: dict[str, Any] = {name: script.pop(name) for name in ("__file__", "__spec__") if name in script}
     script["__spec__"] = None
+    heard = None
+    if sys.platform != "win32":
+        from multiprocessing import resource_tracker
+
+        resource_tracker.ensure_running()  # which would be started with the first process, and hears again after it
+        heard = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
+        if heard is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, heard)
         script.update(kept)
 
 

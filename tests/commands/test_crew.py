@@ -25,7 +25,7 @@ from kulman.scales.errors import InputError
 from kulman.scales.kept import COLLECTED, seldom_collected
 from kulman.tests.support.cases import some
 from kulman.tests.support.commands import files, roster
-from kulman.variants.crew import on_cluster, shared_out
+from kulman.variants.crew import on_cluster, shared_out, without_script
 
 ITEMS = list(range(60))
 SQUARES = {item: item * item for item in ITEMS}
@@ -254,6 +254,19 @@ class TestCluster:
                 list(on_cluster(Squares().begin, [2, 3], str, address))
 
         assert [made for _, made in done] == [4, 9]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals of a terminal")
+def test_a_process_that_is_being_started_does_not_hear_of_ctrl_c() -> None:
+    process = multiprocessing.get_context("spawn").Process(target=time.sleep, args=(0.1,))
+    with without_script():
+        process.start()
+    assert process.pid is not None
+    os.kill(process.pid, signal.SIGINT)  # as a terminal tells all processes
+    process.join(60.0)
+
+    assert process.exitcode == 0
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())  # this one hears again
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import time
 from collections.abc import Iterator
 from contextlib import closing
 from html import unescape
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import pytest
@@ -187,6 +189,37 @@ def test_more_than_may_wait_is_told_to_come_again(tmp_path: Path, monkeypatch: p
     found = asyncio.run(several())
 
     assert [type(one) for one in found].count(BusyError) == 2
+
+
+@pytest.mark.parametrize("stopped", [True, False])
+def test_a_server_that_is_stopped_at_a_job_complains_of_none(
+    stopped: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, ended = Event(), Event()
+
+    def killed(*job: Any) -> None:
+        begun.set()
+        ended.wait(60.0)
+        raise InputError("serve-died")
+
+    async def one() -> list[Any]:
+        crew, told = Crew(1, 2, 60.0, tmp_path, "seat"), list[Any]()
+        asyncio.get_running_loop().set_exception_handler(lambda loop, what: told.append(what["exception"]))
+        asked = asyncio.create_task(crew.do(sleeps, 0.0))
+        await asyncio.to_thread(begun.wait, 60.0)
+        asked.cancel()  # whoever has asked is gone, as all are when Ctrl+C ends the server
+        if stopped:
+            crew.stop()
+        ended.set()
+        while len(asyncio.all_tasks()) > 1:
+            await asyncio.sleep(0.01)
+        del asked
+        gc.collect()
+        return told
+
+    monkeypatch.setattr(jobs.Seat, "do", killed)
+    told = asyncio.run(one())
+    assert [type(error) for error in told] == ([] if stopped else [InputError])  # a live one complains
 
 
 @pytest.mark.parametrize(("cores", "seats"), [(None, 2), (1, 2), (2, 2), (6, 6)])

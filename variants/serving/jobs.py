@@ -25,11 +25,14 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from threading import Lock, Thread
-from typing import IO, Any, Generic, TypeVar
+from typing import IO, TYPE_CHECKING, Any, Generic, TypeVar
 
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import collect_seldom
 from ..crew import Advance, without_script
+
+if TYPE_CHECKING:
+    import asyncio
 
 MEMORY = 2_000_000_000  # bytes of data that a process may have
 PREFIX, LOCK = "kulman-serve-", "lock"  # of folders of servers; the file in them that its server keeps locked
@@ -264,7 +267,14 @@ class Crew:
             raise BusyError
         self._asked += 1
         # a task of its own: who waits may go, the process is still at it
-        return await asyncio.shield(asyncio.create_task(self._do(make, args, like, advance)))
+        job = asyncio.create_task(self._do(make, args, like, advance))
+        job.add_done_callback(self._silenced)
+        return await asyncio.shield(job)
+
+    def _silenced(self, job: asyncio.Task[Any]) -> None:
+        """Let nobody hear of a job that died because all processes have been ended."""
+        if self.seats[0].over and not job.cancelled():
+            job.exception()  # is retrieved by this
 
     async def _do(self, make: Make, args: tuple[Any, ...], like: Hashable, advance: Advance | None) -> Any:
         import asyncio
