@@ -237,7 +237,9 @@ def _in_si(given: Given, value: Any) -> Array:
         plain = plain.astype(float, casting="unsafe" if plain.dtype == object else "same_kind")  # no complex, no text
         array = plain * one
     except (TypeError, ValueError):
-        raise InputError("type-quantity-array", expected=given.unit.si.name, other=Written(given.unit.name)) from None
+        raise InputError(
+            "type-quantity-array", expected=UnitName(given.unit.si.name), other=Written(given.unit.name)
+        ) from None
     if not array.size:
         raise InputError("array-empty")
     least, most = int(np.argmin(array)), int(np.argmax(array))

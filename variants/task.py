@@ -19,7 +19,7 @@ from ..scales.givens import Bound, Described
 from ..scales.names import latin, unknown
 from ..scales.numbers import quote
 from ..scales.scale import AS_INSIDE, Display
-from ..scales.units import Unit, bounded, parse
+from ..scales.units import Unit, UnitName, bounded, parse
 from .shelf import bundled_text
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ class Given:
         elif _is_number(value):
             number = plain_number(value, self.unit)
         else:
-            raise InputError("type-quantity", expected=self.unit.name)
+            raise InputError("type-quantity", expected=UnitName(self.unit.name))
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number

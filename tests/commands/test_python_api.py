@@ -465,6 +465,22 @@ def test_what_there_is_not_is_refused_in_one_line_wherever_it_is_asked_for() -> 
     assert kulman.tasks("gear") == ("madi-gear",)
 
 
+def test_a_unit_that_was_expected_is_spelled_as_the_language_does() -> None:
+    said = []
+    for asked in (
+        lambda: kulman.solve(TASK, set={"l_OA": None}),
+        lambda: kulman.solve_many(TASK, l_OA=["a"]),
+        lambda: kulman.check(TASK, "3").mark({"V_B": None}),  # type: ignore[dict-item]
+    ):
+        with pytest.raises(KulmanError) as caught:
+            asked()
+        said.append([caught.value.text(language).partition(": ")[2] for language in ("en", "uk")])
+
+    assert said[0] == ['a quantity was expected, such as "1 mm"', 'очікувалася величина, наприклад "1 мм"']
+    assert "чисел у м або" in said[1][1]
+    assert [text.rpartition("1 ")[2] for text in said[2]] == ['m/s"', 'м/с"']
+
+
 def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:
     for call in (kulman.note, kulman.handout, kulman.sweep):
         with pytest.raises(KulmanError, match="unknown argument 'studnt'; did you mean student"):

@@ -204,7 +204,7 @@ def answers_of(said: Mapping[str, Any], asked: Asked) -> Answers:
         else:
             if name not in asked.names:
                 raise unknown("quantity-unknown", name, asked.names)
-            raise LocatedError(name, InputError("type-quantity", expected=asked.quantities[name].unit))
+            raise LocatedError(name, InputError("type-quantity", expected=UnitName(asked.quantities[name].unit)))
     found = _form(Grid("answers", tuple(rows)), 0, {"name": 0, "value": 1, "unit": 2}, asked)
     if not found.lines and not found.scales and found.problems:  # which nobody would look for in a report without marks
         raise as_one(found.problems)
