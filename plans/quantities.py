@@ -9,9 +9,12 @@ import cmath
 import math
 import operator
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Any, TypeVar
 
+from ..scales.errors import InputError
 from ..scales.scale import Display, Scale
 from ..scales.units import converted, parse, unit
 from .board import POINTS, POSITION, Program, Step
@@ -81,6 +84,20 @@ class Quantity:
         if self.kind == "point":
             raise TypeError(f"{self.name} is a point: it has coordinates x and y")
         return math.nan if self.value is None else self.value
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the other one is the same in everything, or is its value, a number or a text with its unit."""
+        if isinstance(other, Quantity):
+            return all(getattr(self, name) == getattr(other, name) for name in self.__slots__)
+        if not isinstance(other, (Real, str)):
+            return NotImplemented
+        with suppress(InputError):  # a text that says nothing of this kind
+            return self.value is not None and self.value == self._number(other)
+        return False
+
+    def __hash__(self) -> int:
+        """Return the hash of the value, which equals a number."""
+        return hash(self.value)
 
     # compared with, and added to, a quantity, a text with its unit, or a number in the unit of this one
     __lt__, __gt__, __le__, __ge__ = map(_beside, (float.__lt__, float.__gt__, float.__le__, float.__ge__))

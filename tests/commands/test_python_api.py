@@ -11,6 +11,7 @@ import json
 import pickle
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -393,6 +394,24 @@ def test_a_quantity_is_compared_and_calculated_with_as_a_number_in_its_unit(solu
     assert (abs(speed), -speed, 1 - speed, 2 * speed, speed / speed) == (size, -size, 1 - size, 2 * size, 1)
     with pytest.raises(KulmanError):
         speed + solution["a_B"]
+
+
+def test_a_quantity_equals_a_number_in_its_unit_and_a_text_that_says_it(solution: Solution) -> None:
+    speed, idle = solution["V_B"], solution["M_03"]
+
+    assert (speed == float(speed), speed == np.float64(float(speed)), idle == 0, speed == 5) == (
+        True,
+        True,
+        True,
+        False,
+    )
+    assert (idle == "0 N*m", idle == "0 Н·м", idle == "0 kg", idle == "nothing") == (True, True, False, False)
+    assert idle in (1, 0)
+    assert {0: "idle"}[idle] == "idle"  # type: ignore[index]
+    assert solution["B"] != 0
+    assert kulman.solve(TASK, set={"l_AB": 20, "phi": 90})["V_B"] not in (0, None)
+    assert speed == kulman.solve(TASK, "3")["V_B"] != replace(speed, name="V_C")
+    assert pickle.loads(pickle.dumps(speed)) in {speed}
 
 
 def test_answers_are_marked_as_a_mapping_too(solution: Solution) -> None:
