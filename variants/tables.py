@@ -281,8 +281,8 @@ class Arrays(OfCase):
         return (column.name for column in self.arrays())
 
     def __contains__(self, name: object) -> bool:
-        """Tell whether there is a column of this name."""
-        return any(name == column.name for column in self.arrays())
+        """Tell whether `self[name]` are numbers."""
+        return isinstance(name, str) and any(name == column.name for column in self.arrays(name))
 
     def _ipython_key_completions_(self) -> list[str]:
         """Return what a notebook offers behind `swept["`."""

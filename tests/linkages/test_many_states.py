@@ -359,7 +359,9 @@ def test_states_tell_the_givens_that_are_the_same_for_all_of_them() -> None:
     assert np.all(states["l_OA"] == 0.055)
     assert np.all(states["m_2"] == solve(TASK, "3")["m_2"].value)
     assert float(alone["phi"]) == pytest.approx(math.radians(75.0))
+    assert "m_2" in states
     assert "m_2" not in [*states]  # as of one solution
+    assert ("V_B.x" in states, "B" in states, 3 in states, "" in states) == (True, False, False, False)
     idle = solve_many("scheme-09-shaper", phi=np.linspace(0.0, 6.0, 9), only="forces")
     assert {0.0, float(idle["F_5"].max())} == {*idle["F_5"].tolist()}  # the force that acts, not the given
     with pytest.raises(KulmanError, match="there is no quantity 'rotation'"):
