@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import lru_cache
 
 import pytest
@@ -109,6 +110,9 @@ def test_what_is_too_short_stands_enlarged_in_an_inset(task: str) -> None:
     assert not [v for inset in figure.insets for v in inset.vectors if v.quantity == long]
     assert len(figure.insets) == len([s for s in figure.strokes if s.role == "window"]) == 1
     assert [s for inset in figure.insets for s in inset.strokes if s.role == "inset"]
+    letters = {text.string for inset in figure.insets for text in inset.of("label")}
+    (said,) = [text.string for text in figure.of("heading") if re.search("виносний елемент|detail", text.string)]
+    assert letters.issuperset(letter.strip() for letter in said.partition(":")[0].split(", "))
 
 
 def test_inset_names_its_own_scale_factor_and_a_zero_vector_is_a_point_that_is_said() -> None:

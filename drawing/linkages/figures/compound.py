@@ -22,7 +22,7 @@ from ....plans.names import vector as named
 from ...figure import ANSWERS
 from ...shapes import Arrow, Line, Pen, Shape, Vector, changed
 from ...symbols import clear_ray, turning_arrow, unit
-from ...view import Canvas, View
+from ...view import UNNUMBERED, Canvas, View
 from ..reading import Edge
 from ..scene import Scene, is_at_point, line_of
 from . import plan as plans
@@ -134,7 +134,7 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
         _turn(canvas, scene, c.omega_e, c.pivot)
         _turn(canvas, scene, f"omega_r_{c.number}", c.hinge)
     heading = scene.heading("heading.compound_velocity", POSITION, points[0].plan)
-    return with_insets(canvas, VELOCITIES, heading, (*beyond, *_zeros(points)), windows)
+    return with_insets(canvas, VELOCITIES, heading, (*beyond, *_zeros(points), *_enlarged(windows)), windows)
 
 
 def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
@@ -159,7 +159,7 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     for kind in ("omega", "epsilon"):
         _turn(canvas, scene, f"{kind}_r_{coupler.number}", coupler.hinge)
     heading = scene.heading("heading.compound_acceleration", POSITION, at.plan, point=scene.words.mark(point))
-    return with_insets(canvas, f"{ACCELERATIONS}{at.letter}", heading, tuple(_zeros([at])), windows)
+    return with_insets(canvas, f"{ACCELERATIONS}{at.letter}", heading, (*_zeros([at]), *_enlarged(windows)), windows)
 
 
 def _zeros(points: Sequence[At]) -> Iterator[str]:
@@ -167,6 +167,14 @@ def _zeros(points: Sequence[At]) -> Iterator[str]:
     for scene, vector in ((at.scene, vector) for at in points for vector in at.vectors()):
         if length_of(vector) < 1e-6:
             yield scene.words["said.zero"].format(vector=scene.letter(vector.quantity))
+
+
+def _enlarged(windows: Sequence[tuple[At, Window]]) -> Iterator[str]:
+    """Say which vectors have their letters in a detail."""
+    for at, window in windows:
+        shown = [v for v in at.vectors() if window.shows(v.tail, v.tip) and length_of(v) > 1e-6]
+        letters = ", ".join(at.scene.letter(vector.quantity) for vector in shown)
+        yield at.scene.words["said.inset"].format(vectors=letters, inset=UNNUMBERED[0])
 
 
 def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Skeleton]:
@@ -191,7 +199,7 @@ def _thin(shape: Shape) -> Shape:
     return replace(shape, pen=Pen.THIN) if isinstance(shape, Line) and shape.pen is Pen.MAIN else shape
 
 
-def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]]:
+def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[At, Window]]:
     """Draw the arms, the construction lines and the vectors at points; return the insets, where some have letters."""
     for at in points:
         start, end, rim = at.scene.mm(at.coupler.pivot), at.place, at.scene.style.pair
