@@ -419,8 +419,8 @@ def printable(text: str) -> str:
 
 
 def tied(text: str) -> str:
-    """Return words of which no line ends between a letter and what it is equal to, a number and its unit."""
-    return _BEFORE_SIGN.sub(TIE, _AFTER_NUMBER.sub(TIE, text))
+    """Return words of which no line ends between a letter and what it is equal to, a number and its unit, a minus."""
+    return _BEFORE_SIGN.sub(TIE, _AFTER_NUMBER.sub(TIE, text)) + JOINER * text.endswith("−")
 
 
 def is_unit(parts: Sequence[Node], place: int) -> bool:

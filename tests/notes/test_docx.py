@@ -297,6 +297,8 @@ def test_units_are_words_and_symbols_formulas(markup: str, formulas: list[str]) 
     assert bare(said(found)) == bare(spelled(markup))
     tied = parsed(line("r_{0} = 45.26 mm, more"))  # no line ends between a letter, its number and the unit
     assert said(tied) == "r_{0}\u00a0= 45.26\u00a0mm, more"
+    opposite = parsed(line(r"\bar{R}_{21} = −\bar{R}_{12}"))  # nor between a minus and what it is of
+    assert "= −\u2060" in said(opposite)
 
 
 @pytest.mark.parametrize("write", [line, built_up])
