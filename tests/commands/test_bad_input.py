@@ -291,6 +291,12 @@ def test_a_word_too_many_is_told_with_its_option(
     assert refusal(*command).endswith(f"was {told} meant?")
 
 
+@pytest.mark.parametrize("between", [",", ", ", ";", "; "])
+def test_several_settings_in_one_are_to_be_said_one_by_one(between: str, refusal: Callable[..., str]) -> None:
+    """Of a semicolon it was told that there is no unit `;n_1=700`."""
+    assert refusal("solve", TASK, "--set", f"l_AB=200{between}n_1=700").endswith("say --set again for 'n_1=700'")
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})

@@ -371,7 +371,7 @@ def pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
         name, equals, text = (part.strip() for part in value.partition("="))
         if not name or not equals or not text:
             raise InputError("cli-setting", option=param.opts[0], text=quote(value))
-        if several := re.search(r",\s*(?=[^\W\d]\w*\s*=)", text):
+        if several := re.search(r"[,;]\s*(?=[^\W\d]\w*\s*=)", text):
             option, others = param.opts[0], text[several.end() :]
             raise InputError("cli-setting-again", option=option, text=quote(value), other=quote(others))
         if name in found:
