@@ -503,6 +503,21 @@ def test_a_student_with_initials_is_found_in_the_roster_and_a_stranger_is_told_b
     assert absent == ["Бондар Іван"]
 
 
+def test_reports_have_the_numbers_of_the_roster(tmp_path: Path, run: Run) -> None:
+    """Whoever handed in nothing had none, and all after them those of others."""
+    people = [["student", "id number", "variant"], *([f"Student {n}", f"N{n}", "3"] for n in range(1, 6))]
+    roster, works = write(tmp_path, people, name="roster"), tmp_path / "works"
+    works.mkdir()
+    for name, value in (("Student 2", 5.62), ("Student 5", 5.1), ("Student 5 (1)", 5.2), ("Ann", 5.3)):
+        rows = [["student", name.partition(" (")[0]], [], ["quantity", "value, m/s"], ["V_B", value]]
+        write(works, rows, name=name)
+
+    run("check", TASK, works, "--roster", roster, "--out", tmp_path / "out", "-v", "3", "--lang", "en")
+
+    texts = sorted(path.stem for path in (tmp_path / "out").glob("*.txt"))
+    assert texts == ["002-Student-2", "005-Student-5", "006-Student-5", "007-Ann"]
+
+
 @pytest.mark.parametrize(("again", "grades"), [("5,62", ["N1", "N2"]), ("5,1", ["N2"])])
 def test_who_hands_in_twice_or_is_no_one_of_the_roster_gets_no_second_grade(
     tmp_path: Path, run: Run, again: str, grades: list[str]

@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import count
 from pathlib import Path
 
 from ...drawing.formats import format_named
@@ -346,14 +347,22 @@ class Job:
         desk = Desk(self.terms)
         return lambda item: _mark_one(self, desk, *item)
 
-    def names(self, answers: Iterable[Answers]) -> list[str]:
+    def numbers(self, answers: Iterable[Answers]) -> list[int]:
+        """Return the number of each student in names of reports, from 0: the place in the roster, or one after."""
+        entries = self.terms.roster.entries if self.terms.roster else ()
+        places, others = {id(entry): place for place, entry in enumerate(entries)}, count(len(entries))
+        found = (places.pop(id(self.terms.entry_of(one)), None) for one in answers)
+        return [next(others) if place is None else place for place in found]
+
+    def names(self, answers: Sequence[Answers]) -> list[str]:
         """Return for each student what tells this job from any that would mark or say something else."""
         terms, request = self.terms, self.terms.request
         asked = (request.variant, request.settings, request.only, request.scales, request.notation)
         parts = (__version__, request.task.text, *asked)
         own = (request.language, request.format, terms.rubric, terms.digits, terms.own, tuple(REPORTS))
         whole, told = digest_of(repr((parts, own))), ((one, terms.entry_of(one)) for one in answers)
-        return [digest_of(f"{whole} {number} {one.digest} {entry!r}") for number, (one, entry) in enumerate(told)]
+        numbered = zip(self.numbers(answers), told, strict=True)
+        return [digest_of(f"{whole} {number} {one.digest} {entry!r}") for number, (one, entry) in numbered]
 
 
 def _mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None) -> list[Result]:
@@ -394,10 +403,12 @@ def _each_marked(
             if before is not None and all((Path(job.folder) / report).is_file() for report in before.reports):
                 found.setdefault(number, before)
     advance(len(found), len(answers))
-    todo = [item for item in enumerate(answers) if item[0] not in found]
+    left = [number for number in range(len(answers)) if number not in found]
+    of_reports = job.numbers(answers)
+    todo = [(of_reports[number], answers[number]) for number in left]
     with seldom_collected():  # keys are many objects
         for done in shared_out(job.begin, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
-            for number, student, result in ((*todo[place], one) for place, one in done):
+            for number, student, result in ((left[place], todo[place][1], one) for place, one in done):
                 entry = job.terms.entry_of(student)
                 stranger = entry is None and job.terms.roster is not None
                 # where there is none, the student's answers have killed the process that marked them
