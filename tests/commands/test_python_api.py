@@ -484,6 +484,11 @@ def test_what_there_is_not_is_refused_in_one_line_wherever_it_is_asked_for() -> 
     assert kulman.tasks("gear") == ("madi-gear",)
 
 
+@pytest.mark.parametrize("variant", [3, np.int64(3), "3", [np.int64(3)], range(3, 4)])
+def test_variants_are_named_by_texts_and_numbers(variant: Any) -> None:
+    assert [*all_variants(TASK, variant, quantities="V_B").keys] == ["3"]
+
+
 def test_a_unit_that_was_expected_is_spelled_as_the_language_does() -> None:
     said = []
     for asked in (

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -210,7 +211,7 @@ def _symbol(key: Keyed, name: str) -> str:
 @of_its_kinds()
 def all_variants(
     task: AnyTask,
-    variant: Wanted = None,
+    variant: Wanted | int | Iterable[int] = None,
     *,
     make: int | None = None,
     ranges: Settings | None = None,
@@ -231,7 +232,7 @@ def all_variants(
 
     Parameters
     ----------
-    variant : str or iterable of str, optional
+    variant : str, number or iterable of these, optional
         Those wanted, `"3,5"`; all without it.
     make : int, optional
         How many new variants are made, up to 1000, each a good exercise.
@@ -273,7 +274,8 @@ def all_variants(
     request = asked.request
     keys: dict[str, Keyed] = {}
     problems: dict[str, KulmanError] = {}
-    wanted = [request.task.variant(one).id for one in names_of("variant", variant, (str, int))]
+    asked_for = [variant] if isinstance(variant, (int, Integral)) else variant
+    wanted = [request.task.variant(one).id for one in names_of("variant", asked_for, (str, Integral))]
     for one in wanted or request.task.variants:
         try:
             keys[one] = keyed(request, one, {}, asked.rubric)
