@@ -22,12 +22,19 @@ from .ways import Shape
 
 ANCHORS = 24  # ways to lay a plan of which it is seen how its lines lead on
 MOVED = 0.5  # part of the longest line that leads to a point by which it may be elsewhere
+BEGUN = 3.0  # mm from a printed pole where a plan is laid that begins there
 LACKS = 0.2  # part of it, what it costs that a line lacks, or goes on beyond its point
 
 
-def elsewhere(laying: Laying, shape: Shape, turn: float) -> Fit | None:
-    """Return where a shape fits best on a sheet turned so, at its usual size, with its points where lines lead."""
+def elsewhere(laying: Laying, shape: Shape, turn: float, pole: complex | None = None) -> Fit | None:
+    """Return where a shape fits best on a sheet turned so, at its usual size, with its points where lines lead.
+
+    If its `pole` is printed, only those count that begin there.
+    """
     (laid,) = laying.lay_all([shape], turn, math.inf, usually=True)
+    if pole is not None:
+        here = np.abs(laid.origins - pole) <= BEGUN
+        laid = laid._replace(origins=laid.origins[here], factors=laid.factors[here], nodes=laid.nodes[here])
     tails, tips = shape.tails[shape.lines], shape.tips[shape.lines]
     there = laying.lines.joined(laid.nodes[:, tails], laid.nodes[:, tips])
     right = (there * shape.weights * (np.abs(shape.spans) >= GENERATOR * shape.longest)).sum(axis=1)

@@ -195,6 +195,49 @@ def test_a_mistake_is_named_and_a_line_that_is_not_sure_is_not_wrong(tmp_path: P
     assert figures.named == 1
 
 
+@pytest.mark.parametrize(("by", "quality"), [(8.0 + 0.0j, PHONE), (5.0 - 7.0j, SCANNER)])
+def test_a_plan_with_one_point_elsewhere_is_read_as_it_is_drawn_and_judged_line_by_line(
+    by: complex, quality: str, tmp_path: Path
+) -> None:
+    """All its vectors were missing, unless a known mistake put the point there."""
+    sheet, random = sheet_for(TASK, only=PLANS), np.random.default_rng(3)
+    way = sheet.ways("velocity", False)[0]
+    places = way.places.copy()
+    a, b, s2 = (way.marks.index(f"velocity.{name}") for name in ("A", "B", "S2"))
+    part = (places[s2] - places[a]) / (places[b] - places[a])
+    places[b] += by * sheet.mus["velocity"]
+    places[s2] = places[a] + part * (places[b] - places[a])  # follows
+    ink, truth = drawn(sheet, sheet.poles["velocity"][0], random, {"velocity": replace(way, places=places)})
+    (tmp_path / "student.jpg").write_bytes(photographed(ink, random, quality))
+    ready, figures = check(TASK, "0", only=PLANS, lang="en"), Figures()
+
+    marked = ready.mark(*ready.read(str(tmp_path / "student.jpg"))).marked
+    compared(figures, sheet, truth, marked, RIGHT)
+
+    verdicts = {line.name: line.verdict for line in marked.lines}
+    assert {"V_A", "V_BA", "V_B"} <= {*marked.seen.recognised.vectors}
+    assert figures.wrong == 0
+    assert (verdicts["V_A"], verdicts["V_BA"]) == (Verdict.RIGHT, Verdict.WRONG)
+    assert [name for name, verdict in verdicts.items() if verdict is Verdict.WRONG] == ["V_BA"]
+
+
+@pytest.mark.parametrize("lacks", ["", "V_B"])
+def test_no_point_of_a_right_plan_is_elsewhere_where_other_lines_are_drawn(lacks: str) -> None:
+    sheet = sheet_for(TASK, only=PLANS)
+    number, pole = sheet.poles["velocity"]
+    way = sheet.ways("velocity", False)[0]
+    own = np.array([at for at, name in enumerate(way.names) if name != lacks])
+    tails, tips = (pole + way.places[side[own]] / sheet.mus["velocity"] for side in (way.tails, way.tips))
+    others = np.array([(-30 - 20j, 70 + 25j), (15 + 40j, 15 - 40j), (-20 + 12j, 80 + 10j)]) + pole  # also through it
+
+    lines = lines_of(np.append(tails, others[:, 0]), np.append(tips, others[:, 1]))
+    found = matched({number: lines}, {"velocity": (number, pole)}, sheet.mus, sheet.keyed).vectors
+
+    spans = {name: way.places[b] - way.places[a] for name, a, b in zip(way.names, way.tails, way.tips, strict=True)}
+    assert {*found} >= {name for name in spans if name in sheet.keyed.key.questions} - {"V_B", "V_S2"}
+    assert all(abs(one.tip - one.tail - spans[name] / sheet.mus["velocity"]) < 1.0 for name, one in found.items())
+
+
 FORCES = {"forces_23", "forces_2", "forces_1"}
 
 

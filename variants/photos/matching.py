@@ -10,12 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...plans.laws import cross, dot
 from ...plans.marking.drawn import Found, FoundPlan, Recognised
+from ...plans.marking.elsewhere import elsewhere
+from ...plans.marking.laying import Laying
+from ...plans.marking.lines import Drawn, Lines
+from ...plans.marking.lines import lines_of as in_order
 from ...plans.marking.ways import Shape as Way
 from ...plans.marking.ways import shapes_of
 from ..marking.keyed import Keyed
@@ -37,6 +42,7 @@ LACKS, HAND = (
 )  # power of the part that is there, by which a plan goes before others; mm that a hand misses points
 RESIZED = 0.3  # mm by which the longest vector is measured anew
 LIKELY = 6  # plans with a mistake of which most mm are there, and most of them, that are looked at closely
+STRAYED = 3.0  # mm from where it should be that a point is elsewhere
 SURE = 0.7  # mm, error of an end from which a vector is not sure; those that end so are 0.3 mm off
 ALIKE = 0.7  # mm within which ends and arrows are those of one point
 STEEP = 0.2  # sine of lines between which a point is told by their crossing
@@ -130,7 +136,30 @@ def _best(lines: _Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> _
             enough = CLEAR * least if own.quality >= WHOLE else least + BETTER
             if own.worth > enough and (best.way.right or _rank(own) > _rank(best)):
                 best = own
+    if best.quality < WHOLE and (led := _elsewhere(lines, pole, mu, right, keyed)) is not None:
+        best = led if led.worth > best.worth + BETTER else best
     return best if best.quality >= ENOUGH else None
+
+
+def _elsewhere(lines: _Lines, pole: complex, mu: float, right: Way, keyed: Keyed) -> _Fit | None:
+    """Return how a plan is drawn of which points are elsewhere by no mistake that is known, if all of it is there."""
+    laying = Laying(*_in_order(lines), keyed.key.paper.mus, {right.plan: mu})
+    led = elsewhere(laying, right, 0.0, pole)
+    if led is None:
+        return None
+    nodes = laying.lines.nodes[led.nodes]
+    places = np.where(led.nodes >= 0, (nodes - pole) * mu, right.places)
+    if np.abs(places - right.places).max() <= STRAYED * mu:
+        return None
+    way = replace(right, places=places)
+    fit = _traced(lines, _laid(lines, pole, mu, way), pole, mu)
+    return fit if fit.quality >= WHOLE else None
+
+
+@lru_cache(maxsize=1)  # of one plan of a page after the other
+def _in_order(lines: _Lines) -> tuple[Drawn, Lines]:
+    drawn = Drawn(lines.tails, lines.tips, by_hand=True)
+    return drawn, in_order(drawn)
 
 
 def _rank(fit: _Fit) -> tuple[bool, float]:
