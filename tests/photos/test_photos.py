@@ -12,6 +12,7 @@ import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
+from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -757,6 +758,29 @@ def test_the_point_of_an_arrowhead_is_where_its_wings_meet_though_they_are_a_blo
     assert len(off) >= 20
     assert abs(np.median(off)) < 0.08
     assert np.percentile(np.abs(off), 80) < 0.25
+
+
+def test_an_arrowhead_that_is_filled_does_not_point_beyond_where_its_line_ends() -> None:
+    pole, reach, off = 60 + 30j, 24.0, list[float]()
+    for number in range(12):
+        unit = cmath.rect(1.0, 0.1 + number * math.tau / 12)
+        paper, head = (
+            Paper(np.full((60 * 12, 120 * 12), 255, np.uint8), np.random.default_rng(number)),
+            pole + reach * unit,
+        )
+        paper.stroke(pole, head, 0.7, 0.4)
+        for end, turn in product((head, head + 0.6j * unit), (0.26, -0.26)):  # those of two vectors
+            paper.stroke(end, end - 3.5 * unit * np.exp(1j * turn), 0.7, 0.5, 0.02)
+        paper.stroke(head, head + 5 * cmath.exp(1.4j) * unit, 0.7, 0.4)
+        small = cv2.resize(paper.ink, (120 * PER_MM, 60 * PER_MM), interpolation=cv2.INTER_AREA)
+        pencil = Pencil((cv2.GaussianBlur(small, (0, 0), 1.0) * 254).astype(np.uint8))
+        points, errors, _ = traced(
+            pencil, plan_of([0j, reach * unit], (0, 1)), np.array([pole, head]), np.array([pole, head]), pole
+        )
+        off += [((points[1] - head) / unit).real] * bool(errors[1] <= SURE)
+
+    assert len(off) == 12
+    assert np.abs(off).max() < 0.3
 
 
 def test_an_arrowhead_whose_wings_letters_touch_is_found() -> None:

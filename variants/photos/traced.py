@@ -241,7 +241,8 @@ def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) 
                 seen += _pointed(pencil, line, *where)
                 if not seen and (np.abs(np.sin(turns)) < LEVEL).all():  # nothing else tells where it ends
                     seen += _widened(pencil, line, *where)
-            near += seen
+            bare = [head for head in seen if head.arrow and any(BEYOND < -_beyond(s, head) <= STRAYED for s in seen)]
+            near += [spot for spot in seen if spot not in bare]  # no arrowhead points to where its line has ended
     for mark, some in spots.items():  # what is at another point is of that
         others_at = np.delete(points, mark)
         own = [s for s in some if np.abs(others_at - s.place).min() + NEARER > abs(points[mark] - s.place)]
