@@ -291,6 +291,13 @@ def test_a_word_too_many_is_told_with_its_option(
     assert refusal(*command).endswith(f"was {told} meant?")
 
 
+def test_a_name_that_there_is_not_is_told_with_one_of_its_kind(refusal: Callable[..., str]) -> None:
+    """For a mass a force was offered."""
+    Path("x.toml").write_text(GOOD.replace('mass = "m_2"', 'mass = "f_3"'), encoding="utf-8")
+
+    assert "did you mean 'm_3'?" in refusal("solve", "x.toml")
+
+
 @pytest.mark.parametrize("between", [",", ", ", ";", "; "])
 def test_several_settings_in_one_are_to_be_said_one_by_one(between: str, refusal: Callable[..., str]) -> None:
     """Of a semicolon it was told that there is no unit `;n_1=700`."""

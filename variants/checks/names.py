@@ -204,7 +204,8 @@ class Names:
             bare = raw.removeprefix("-") if isinstance(raw, str) and signed else raw
             if isinstance(bare, str) and NAME.fullmatch(bare):
                 if bare not in self.dimensions:
-                    checker.fault(path, unknown("value-unknown", bare, self.dimensions))
+                    fitting = [name for name, own in self.dimensions.items() if own in (None, wanted.dimension)]
+                    checker.fault(path, unknown("value-unknown", bare, fitting or self.dimensions))
                     return None
                 found, written = bare if bare == raw else MINUS + bare, self.dimensions[bare]
                 if written is None:
