@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from ..scales.errors import InputError, Written
+from ..scales.errors import InputError, UnknownNameError, Written
 from ..scales.names import latin, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from .spreadsheets.files import read_grid
@@ -121,7 +121,12 @@ class Roster:
         several = next(filter(None, self._called(who)), [])
         if several:
             return InputError("marked-namesakes", text=quote(who.student), students=named(one.who for one in several))
-        return unknown("marked-stranger", who.student or source, (one.who.student for one in self.entries))
+        names = [one.who.student for one in self.entries]
+        words = {*map(_folded, who.student.split())}
+        alike = [name for name in names if words & {*map(_folded, name.split())}]  # however short: Xu
+        if len(alike) == 1:
+            return UnknownNameError("marked-stranger-like", text=quote(who.student), like=Written(alike[0]))
+        return unknown("marked-stranger", who.student or source, names)
 
 
 def shared_books(students: Iterable[tuple[Who, str]]) -> Iterator[InputError]:
