@@ -149,33 +149,25 @@ class Case(Request):
 
     def error(self) -> PositionError | None:
         """Return why there is no plan, or None; and which numbers that were set are far from those of the task."""
-        error, far = self.solved.error(), [*_far(self.task, self.variant, self.settings)]
-        if error is None or not far:
+        error, beyond = self.solved.error(), [*self._far()]
+        if error is None or not beyond:
             return error
-        return PositionError("faults", status_word=error.status_word, faults=[*far, error])
+        return PositionError("faults", status_word=error.status_word, faults=[*beyond, error])
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
         """What a user should know: data far from those of the task, lines that meet at a small angle."""
-        return *_far(self.task, self.variant, self.settings), *self.kind.warnings(self.solved)
+        return *self._far(), *self.kind.warnings(self.solved)
+
+    def _far(self) -> Iterator[InputError]:
+        """Go through the numbers that were set and are far from those of the task."""
+        values = self.task.resolve(self.variant, {**self.settings})
+        return far(self.task, {name: value for name, value in values.items() if name in self.settings})
 
     @property
     def kind(self) -> Kind[Any, Any]:
         """Of which kind the task is."""
         return kind_of(self.task.kind)
-
-
-def _far(task: Task, variant: str, settings: Settings) -> Iterator[InputError]:
-    """Go through what was set to hundreds of times more or less than any variant has: metres for millimetres."""
-    for name, value in task.resolve(variant, {**settings}).items():
-        given, row = task.givens[name], (one.values.get(name) for one in task.variants.values())
-        if name not in settings or isinstance(value, str) or given.unit is None or given.bound is Bound.FREE:
-            continue
-        sizes = [size for size in row if not isinstance(size, str) and size]
-        if sizes and value and not min(sizes) / FAR < value < max(sizes) * FAR:
-            own = {"text": value, "least": min(sizes), "most": max(sizes)}
-            said = {key: f"{given.unit.from_si(size):.6g}" for key, size in own.items()}
-            yield LocatedError(name, InputError("given-far", unit=UnitName(given.unit.name), **said))
 
 
 class Tie(NamedTuple):
@@ -483,6 +475,19 @@ def kind_of(table: str) -> Kind[Any, Any]:
     """Return the kind of the tasks that have this table."""
     name = MODULES[table]
     return cast("Kind[Any, Any]", import_module(name if "." in name else f".kinds.{name}", __package__).KIND)
+
+
+def far(task: Task, values: Mapping[str, float | str]) -> Iterator[InputError]:
+    """Go through values that are hundreds of times more or less than any variant has: metres for millimetres."""
+    for name, value in values.items():
+        given, row = task.givens[name], (variant.values.get(name) for variant in task.variants.values())
+        if isinstance(value, str) or given.unit is None or given.bound is Bound.FREE:
+            continue
+        sizes = [size for size in row if not isinstance(size, str) and size]
+        if sizes and value and not min(sizes) / FAR < value < max(sizes) * FAR:
+            own = {"text": value, "least": min(sizes), "most": max(sizes)}
+            said = {key: f"{given.unit.from_si(size):.6g}" for key, size in own.items()}
+            yield LocatedError(name, InputError("given-far", unit=UnitName(given.unit.name), **said))
 
 
 def beside(task: Task, folder: str) -> Any:

@@ -331,6 +331,18 @@ def test_what_a_printed_table_has_not_may_be_set_for_all(tmp_path: Path, run: Ru
     assert task.source["en"] == "data of my own"
 
 
+def test_what_a_table_has_in_another_unit_without_saying_so_is_told_with_its_place(tmp_path: Path, run: Run) -> None:
+    """A centre of mass 0.06 mm from the crank pin, of a table in metres, was taken without a word."""
+    head, values = (row.split(";") for row in ROWS.splitlines()[:2])
+    head[4], values[4] = "l_AS2", "0,06"
+    (file := tmp_path / "tab.csv").write_text("\n".join(map(";".join, (head, values))) + "\n", encoding="utf-8")
+
+    status, _, err = run("variants", TASK, "--from", str(file), "-o", str(tmp_path / "tab.toml"), "--lang", "en")
+
+    assert status == 0
+    assert re.search(r"tab\.csv: .*l_AS2: 0\.06 mm is far from what the variants of the task have", err)
+
+
 def test_a_file_of_new_variants_is_called_by_its_own_name(folder: Path, run: Run) -> None:
     run("variants", TASK, "--make", "1", "-o", "АТ-301 осінь.toml", "--lang", "en")
 

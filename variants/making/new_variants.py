@@ -20,7 +20,7 @@ from ...scales.names import by_name, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import parse
-from ..case import Request, Settings, Tie, kind_of
+from ..case import Request, Settings, Tie, far, kind_of
 from ..crew import Advance
 from ..reader import TaskFileError, load_task, task_of
 from ..sheets import draw_case
@@ -155,7 +155,8 @@ def _judged(
     reason, remark = (
         () if one is None else (LocatedError(read.place, one),) for one in _looked_at(alone, read.id, {}, pages)
     )
-    return reason, remark
+    others = (LocatedError(read.place, one) for one in far(task, alone.resolve(read.id)))
+    return reason, (*others, *remark)
 
 
 def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants:
