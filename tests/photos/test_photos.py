@@ -222,6 +222,28 @@ def test_a_plan_with_one_point_elsewhere_is_read_as_it_is_drawn_and_judged_line_
     assert [name for name, verdict in verdicts.items() if verdict is Verdict.WRONG] == ["V_BA"]
 
 
+@pytest.mark.parametrize("mistake", [True, False])
+def test_a_line_of_which_a_right_plan_is_but_a_part_is_read_as_far_as_it_goes(mistake: bool, tmp_path: Path) -> None:
+    """All of the right plan was there, so none with a mistake was looked for, and its vectors were asked for."""
+    task, plan = "scheme-02-forging-press", "forces_1"
+    sheet, random = sheet_for(task), np.random.default_rng(4)
+    right, *others = sheet.ways(plan, True)
+    longer = [way for way in others if 5.0 < (way.longest - right.longest) / sheet.mus[plan] < 20.0]
+    way = next(way for way in longer if np.abs(np.angle(way.spans / right.spans)).max() < 0.01) if mistake else right
+    number = sheet.poles[plan][0]
+    ink, truth = drawn(sheet, number, random, {**chosen_ways(sheet, RIGHT), plan: way})
+    (tmp_path / "student.jpg").write_bytes(photographed(ink, random, PHONE))
+    ready, figures = check(task, sheet.case.variant, lang="en"), Figures()
+    truth = {name: one for name, one in truth.items() if one.plan == plan}
+
+    marked = ready.mark(*ready.read(str(tmp_path / "student.jpg"))).marked
+    compared(figures, sheet, truth, marked, RIGHT)
+
+    assert {name for name in truth if name in marked.seen.recognised.vectors} == {*truth}
+    assert figures.wrong == 0
+    assert (marked.seen.recognised.plans[plan].mistake == "") is not mistake
+
+
 @pytest.mark.parametrize("lacks", ["", "V_B"])
 def test_no_point_of_a_right_plan_is_elsewhere_where_other_lines_are_drawn(lacks: str) -> None:
     sheet = sheet_for(TASK, only=PLANS)

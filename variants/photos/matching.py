@@ -25,7 +25,7 @@ from ...plans.marking.ways import Shape as Way
 from ...plans.marking.ways import shapes_of
 from ..marking.keyed import Keyed
 from .strokes import END, LINE
-from .traced import Pencil, Traced, between, senses, traced
+from .traced import Pencil, Traced, between, ends_at, senses, traced
 
 LONG = 4.0  # mm of a vector whose line is sought
 OFF, SKEW, TURN = (3.0, 1.5), 1.0, 0.03  # mm a line may be off at first, and then; mm at its ends and sine besides
@@ -124,8 +124,9 @@ def _best(lines: _Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> _
         return None
     (right, *_) = shapes_of(keyed.key, None, plan)
     laid = _laid(lines, pole, mu, right)
-    best = _traced(lines, laid, pole, mu)
-    if best.quality < WHOLE:
+    first = best = _traced(lines, laid, pole, mu)
+    whole = best.quality >= WHOLE
+    if not whole or _untold(best):
         ways = (_laid(lines, pole, mu, way) for way in shapes_of(keyed.key, keyed.book, plan)[1:])
         likely = [
             fit for fit in ways if fit.quality >= LAID and fit.worth > min(CLEAR * laid.worth, laid.worth - BETTER)
@@ -134,11 +135,41 @@ def _best(lines: _Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> _
         for fit in dict.fromkeys((*largest, *sorted(likely, key=lambda fit: -fit.quality)[:LIKELY])):
             own = _traced(lines, fit, pole, mu)
             enough = CLEAR * least if own.quality >= WHOLE else least + BETTER
-            if own.worth > enough and (best.way.right or _rank(own) > _rank(best)):
+            better = own.worth > enough and (best.way.right or _rank(own) > _rank(best))
+            if better and (not whole or _ends_elsewhere(lines, own, first, mu)):
                 best = own
     if best.quality < WHOLE and (led := _elsewhere(lines, pole, mu, right, keyed)) is not None:
         best = led if led.worth > best.worth + BETTER else best
     return best if best.quality >= ENOUGH else None
+
+
+def _untold(fit: _Fit) -> set[int]:
+    """Return the numbers of the lines that are there of which it is not told where they end."""
+    way, known = fit.way, fit.errors <= SURE
+    return {n for n in fit.lines if not (known[way.tails[way.lines[n]]] and known[way.tips[way.lines[n]]])}
+
+
+def _ends_elsewhere(lines: _Lines, own: _Fit, first: _Fit, mu: float) -> bool:
+    """Whether all of a plan with a mistake is there, where lines of the right one, all there, go on or end before.
+
+    The arrowheads of such lines must be where they are with the mistake, and not where they should be.
+    """
+    if own.quality < WHOLE or _untold(own) or lines.pencil is None:
+        return False
+    ends = {name: (own.way.tails[at], own.way.tips[at]) for at, name in enumerate(own.way.names)}
+    untold, moved = _untold(first), 0
+    for n in untold:
+        at = first.way.lines[n]
+        tail, tip = ends.get(first.way.names[at], (None, None))
+        if tail is None or tip is None:
+            return False
+        drawn, right = own.points[tip] - own.points[tail], first.way.spans[n] * first.times / mu
+        if abs(drawn - right) > NEAR:
+            end = complex(own.points[tail])
+            if not ends_at(lines.pencil, end, end + complex(drawn), end + complex(right)):
+                return False
+            moved += 1
+    return moved > 0
 
 
 def _elsewhere(lines: _Lines, pole: complex, mu: float, right: Way, keyed: Keyed) -> _Fit | None:
