@@ -388,7 +388,8 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         seen = foot + at[own] * unit, unit, float(angles[own]), min(WING, 0.9 * size / 3)
         by = _apex(pencil, *seen)
         if by is not None:
-            by = _nearer(pencil, line, *seen, by)
+            # on blurred pictures the two miss it to either side
+            by = (by + _nearer(pencil, line, *seen, by)) / 2.0
             yield _Spot(complex(foot + (at[own] + by) * unit), unit, arrow=True)
             return
     if tops:  # letters beside its wings hide how these stand out
