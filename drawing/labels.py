@@ -136,20 +136,23 @@ class Scene:
         beside = self.gap + np.maximum(APART, 2.0 * IN_ROW * w.hh)
         self.low = x.min(axis=1) - w.hw - beside + 1j * (y.min(axis=1) - w.hh - about)
         self.high = x.max(axis=1) + w.hw + beside + 1j * (y.max(axis=1) + w.hh + about)
-        self._leads: dict[tuple[int, bool, bool, bool], tuple[_Ways, Points, Reals, Flags]] = {}
+        self._leads: dict[tuple[int, bool, bool], tuple[_Ways, Points, Reals, Flags]] = {}
         self._bent: dict[int, tuple[_Ways, Points, Reals, Points]] = {}
         self._along: dict[tuple[int, int, Segment | None], tuple[_Ways, Points, complex]] = {}
 
-    def leads(self, i: int, afield: bool, cross: bool, plain: bool) -> tuple[_Ways, Points, Reals, Flags]:
+    def leads(self, i: int, afield: bool, cross: bool) -> tuple[_Ways, Points, Reals, Flags]:
         """Return leaders of label i whose ends cover nothing, shape (4, K), their costs, and which cross lines.
 
-        They cross nothing, unless they may `cross` lines, and are `plain` or start where others are. They are the same
-        every time that all labels are placed anew.
+        They cross nothing, unless they may `cross` lines. They are the same every time that all labels are placed anew.
         """
-        key = i, afield, cross, plain
+        key = i, afield, cross
         if key not in self._leads:
             lengths = np.append(spots.FAR, spots.AFIELD) if afield else spots.FAR
-            leads, cost = self.wanted.leads(i, lengths, spots.STEEP, self._starts(i, plain))
+            starts, a, b = self._starts(i), complex(self.wanted.a[i]), complex(self.wanted.b[i])
+            leads, cost = self.wanted.leads(i, lengths, spots.STEEP, starts)
+            if a != b:
+                shared = spots.LONE - self.around.alone(np.asarray(a + (b - a) * starts, dtype=complex), a, b)
+                cost += np.repeat(spots.SHARED * shared / spots.LONE, len(cost) // len(starts))
             half = float(self.wanted.hw[i]), float(self.wanted.hh[i])
             few = _cheapest(cost, self.around.free(leads[0], *half, afield).nonzero()[0])
             cost[few] += spots.THIN * ~self.around.fine.free(leads[0, few], complex(*half), self.gap / 2)
@@ -172,9 +175,7 @@ class Scene:
         """
         if i not in self._bent:
             around, half = self.around, (float(self.wanted.hw[i]), float(self.wanted.hh[i]))
-            starts = self._starts(i, True)
-            starts = starts if len(starts) else self._starts(i, False)
-            (_, knee, start, way), cost = self.wanted.leads(i, spots.KNEES, spots.ROUND_ABOUT, starts)
+            (_, knee, start, way), cost = self.wanted.leads(i, spots.KNEES, spots.ROUND_ABOUT, self._starts(i))
             few = _cheapest(cost, (~around.barring.barred(start, knee)).nonzero()[0])
             few = few[:: -(-len(few) // SOME) or 1]  # not only the shortest
             few = few[around.crossed(knee[few], start[few] + spots.TOUCH * way[few]) == 0]
@@ -187,21 +188,9 @@ class Scene:
             self._bent[i] = ways, leads[:, left], costs[left], start
         return self._bent[i]
 
-    def _starts(self, i: int, plain: bool) -> Reals:
-        """Return at which parts of its segment leaders of label i may start, where it is alone or, not `plain`, is not.
-
-        That of an optional one runs past its line.
-        """
-        last = 0.5 if self.requests[i].optional else 1.0
-        few, every = (shares[shares <= last] for shares in (spots.STARTS, spots.BETWEEN))
-        a, b = complex(self.wanted.a[i]), complex(self.wanted.b[i])
-        if a == b:
-            return few[: int(plain)]
-        alone = self.around.alone(a + (b - a) * few, a, b)
-        if not plain or alone.all():
-            return few[alone == plain]
-        others = every[self.around.alone(a + (b - a) * every, a, b)]
-        return np.append(few[alone], others[np.argsort(abs(others - 0.5), kind="stable")[:: -(-len(others) // 6) or 1]])
+    def _starts(self, i: int) -> Reals:
+        """Return at which parts of its segment leaders of label i may start: an optional one's runs past its line."""
+        return spots.STARTS[spots.STARTS <= 0.5] if self.requests[i].optional else spots.STARTS
 
     def _ways(self, i: int, at: Points, *parts: tuple[Points, Points]) -> _Ways:
         """Return label i at places on leaders, whose parts have these starts and ends."""
@@ -359,7 +348,7 @@ class _Board:
                 self._apart(i, spots.THIN, False, False)
         for i in self._read_as_one():
             if self._here(i) > spots.ONE:  # the other one may have gone
-                self._led(i, (False, False, True), self._here(i))
+                self._led(i, (False, False), self._here(i))
         self.failed = self.in_trouble()
         if not self._optional:
             self.cost = scene.grid.cost  # nobody is placed any more: orders are many, and are kept
@@ -389,7 +378,7 @@ class _Board:
             self._put(i, k)
             return True
         other = None if self.failed else self.requests[i].other  # this order is hardly the last one
-        return bool(other) and (self._turned(i, other) or self._led(i, (False, False, True), spots.CROSSING) or self._bent(i))
+        return bool(other) and (self._turned(i, other) or self._led(i, (False, False), spots.CROSSING) or self._bent(i))
 
     def _crossed(self) -> list[int]:
         """Labels through which a thin line runs, or which are in doubt; those whose leaders cross lines."""
@@ -512,16 +501,11 @@ class _Board:
         """
         if self.requests[i].along and self.wanted.a[i] != self.wanted.b[i] and self._turned(i):
             return True
-        if self._led(i, (False, False, True), min(limit, spots.NEARBY)):
+        if any(self._led(i, (far, False), limit) for far in (False, True)[: 1 + afield]):
             return True
-        if self.requests[i].afield and limit >= spots.COVER and self._bent(i, spots.NEARBY + spots.BEND):
-            return True
-        for plain in (True, False):
-            if any(self._led(i, (far, False, plain), limit) for far in (False, True)[: 1 + afield]):
-                return True
         if afield and self._bent(i):
             return True
-        return cross and any(self._led(i, (far, True, plain), limit) for far in (False, True) for plain in (True, False))
+        return cross and any(self._led(i, (far, True), limit) for far in (False, True))
 
     def _turned(self, i: int, other: Segment | None = None) -> bool:
         """Let label i run along its segment, or the `other` one of its line, if it finds room there."""
@@ -561,8 +545,8 @@ class _Board:
         self.now_x[rows], self.now_y[rows] = self.x[rows, pick], self.y[rows, pick]
         self.now[rows] = self.cost[rows, pick]
 
-    def _bent(self, i: int, limit: float = spots.CROSSING) -> bool:
-        """Move label i onto the cheapest leader with a bend that is in nobody's way, if it costs less than `limit`."""
+    def _bent(self, i: int) -> bool:
+        """Move label i onto the cheapest leader with a bend that is in nobody's way."""
         ways, leads, cost, starts = self.scene.bent(i)
         free, near = self._free(i, ways, len(cost))
         if not free.size:
@@ -570,7 +554,7 @@ class _Board:
         leads, starts = leads[:, free], starts[free]
         cost = cost[free] + self._in_the_way(i, leads, near) + self._across(starts, leads[2])
         best = int(cost.argmin())
-        if cost[best] >= limit:
+        if cost[best] >= spots.CROSSING:
             return False
         at, head, knee, e = leads[:, best].tolist()
         end, start = head - e * self.gap / 2, complex(starts[best])
@@ -579,7 +563,7 @@ class _Board:
         self._set_apart(i, at, (knee, start), 0.0)
         return True
 
-    def _led(self, i: int, way: tuple[bool, bool, bool], limit: float) -> bool:
+    def _led(self, i: int, way: tuple[bool, bool], limit: float) -> bool:
         """Move label i onto the cheapest leader of a way that is in nobody's way."""
         ways, leads, cost, barred = self.scene.leads(i, *way)
         free, near = self._free(i, ways, len(cost))

@@ -41,9 +41,9 @@ FAR = np.array([5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0])  # mm, how long l
 AFIELD = np.array([35.0, 42.0, 50.0, 60.0, 75.0])  # mm, how long where there is no place nearer
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
 STARTS = np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92])  # the same for the start of a leader
-BETWEEN = np.linspace(0.05, 0.95, 37)  # others, where another vector or its arrowhead is near to one of those
 LONE = 1.0  # mm from them at which a leader is plainly that of its own
-NEARBY = 24.0  # what leaders cost that are as long as one should be
+NEARER = 150.0  # what it costs that letters without their bar are nearer to another vector
+SHARED = 40.0  # what it costs a leader to start where its own line lies on another one
 STEEP = np.exp(1j * np.radians([*range(30, 151, 15), *range(-150, -29, 15)]))  # a level leader would be a bar or a dash
 FROM_RIGHT = complex(np.exp(1j * np.radians(105.0)))  # a steeper line would be read from the left
 ACROSS, GRAZING = 0.42, 0.2  # sines of the least angle between a leader and its own segment, and any other line
@@ -337,7 +337,7 @@ class Surroundings:
         price[r] += np.where(lead < apart[:, None], doubtful, 0.0)
         price[r] += CLOSE * within(DOUBT - lead, 0.0, DOUBT)
         r, lead = self._barely(wanted, i, j, (x, y))
-        price[r] += np.where(lead < np.where(belongs[r], -EVEN, SURELY)[:, None], THIN, 0.0)
+        price[r] += np.where(lead < np.where(belongs[r], -EVEN, SURELY)[:, None], NEARER, 0.0)
         price += np.where(self._foreign(wanted, i, j, belongs, distance, own[i]), COVER, 0.0)
         cost = cost.copy()
         crowded, starts = np.unique(i, return_index=True)
@@ -436,16 +436,16 @@ class Surroundings:
         result: Flags = ((reach < rim + TOUCH) & aligned) | at_end
         return result
 
-    def alone(self, starts: Points, a: complex, b: complex) -> Flags:
-        """Tell which places on the segment from a to b are plainly no place of other lines, nor of their arrowheads."""
+    def alone(self, starts: Points, a: complex, b: complex) -> Reals:
+        """Return how far places on the segment from a to b are from other lines and arrowheads, at most `LONE`."""
         none, strokes = np.zeros(1), (self.kind == NAMED) | (self.kind == MAIN)
         to_ends = [self.things.distance(np.array(end.real), np.array(end.imag), none, none) for end in (a, b)]
         others = strokes & (np.maximum(*to_ends) > TOUCH)  # along which it does not lie
         others |= (self.kind == HEAD) & (abs(self.things.middle + self.things.along - b) > TOUCH)
         near = Convex._make(column[others] for column in self.things)
         away = near.distance(starts.real[:, None], starts.imag[:, None], none, none)
-        plain: Flags = away.min(axis=1, initial=LONE) >= LONE
-        return plain
+        nearest: Reals = away.min(axis=1, initial=LONE)
+        return nearest
 
     def crossed(self, heads: Points, starts: Points) -> Numbers:
         """Count what leaders cross, run through or along, or leave at so small an angle that they seem to belong to it.
@@ -513,8 +513,7 @@ class Surroundings:
         close_by: Flags = away <= reach
         k, j = close_by.nonzero()
         distance = shapely.distance(boxes[k], self.shapes[j])
-        upward = ((at - wanted.a[i]) / e).imag
-        far = abs(upward) - hh + np.where(upward < 0.0, 2.0 * (hh - wanted.bare[i].imag), 0.0)  # from its own segment
+        far = abs(((at - wanted.a[i]) / e).imag) - hh  # from its own segment
         own, every = Wanted._make(column[i : i + 1] for column in wanted), np.flatnonzero(close_by.any(axis=0))
         one = np.zeros(len(every), dtype=int)
         lead, same = np.full(len(self.kind), SURELY), np.zeros(len(self.kind), dtype=bool)

@@ -210,8 +210,8 @@ class Canvas:
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
         size, afield = layout.size, not spare
-        wishes = clear, prefer, priority, strict, afield, along, optional, other
-        request = Request(name, *size, anchor, *wishes, layout.bare)
+        request = Request(name, *size, anchor, clear, prefer, priority, strict, afield, along, optional, other)
+        request = replace(request, bare=layout.bare)
         self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare, first)
 
     def small(

@@ -10,12 +10,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 
 from kulman.drawing.formats import STYLES
 from kulman.drawing.labels import Labels, Request, Scene, place
 from kulman.drawing.page import extent
 from kulman.drawing.raster import CELL, Cells, Convex
-from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text
+from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text, Vector
 from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
 from kulman.drawing.text import lay_out
 from kulman.drawing.view import DOT, ELSEWHERE, Canvas
@@ -689,6 +690,28 @@ def test_thin_lines_break_off_at_letters_that_they_would_strike_and_nowhere_else
             assert left.intersection(boxes).length < 1e-6, name
         gone += line.length - left.length > 1.0
     assert gone
+
+
+@pytest.mark.parametrize("between", [9.0, 11.0, 13.0, 15.0])
+def test_letters_under_a_bar_are_nearest_to_their_own_vectors_without_the_bar_too(between: float) -> None:
+    for turn in range(0, 360, 9):
+        canvas = Canvas(STYLES["A1"])
+        ends = [turned(90, turn), turned(70, turn + between)]
+        for end, other, markup in zip(ends, ends[::-1], (r"\bar{V}_{A}", r"\bar{V}_{S4}"), strict=True):
+            canvas.add(Vector(0j, end, "V", 1.0, "m/s", 1.0))
+            canvas.label(markup, (0j, end), prefer=other - end, clear=0.9, strict=True)
+        view = canvas.finish("plan")
+        led = any(getattr(shape, "role", "") == "leader" for shape in view.shapes)
+        for text, end in zip((s for s in view.shapes if isinstance(s, Text)), ends, strict=True):
+            layout = lay_out(text.markup, text.height)
+            x0, y0, x1, y1 = layout.bare
+            assert layout.size[1] - y1 > 0.8  # the bar
+            box = shapely.affinity.rotate(shapely.box(x0, y0, x1, y1), math.degrees(text.angle), origin=(0, 0))
+            at = text.at + complex(layout.left, layout.bottom) * cmath.rect(1.0, text.angle)
+            letters = shapely.affinity.translate(box, at.real, at.imag)
+            lines = [shapely.LineString([(0, 0), (p.real, p.imag)]) for p in (end, *(set(ends) - {end}))]
+            far = [letters.distance(line) for line in lines]
+            assert led or far[0] < far[1], (turn, text.markup, far)
 
 
 @pytest.mark.parametrize("seed", range(6))
