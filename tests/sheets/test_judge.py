@@ -41,7 +41,7 @@ CLEAN = """<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" 
 <line class="main" x1="60" y1="100" x2="109" y2="100" stroke-width="0.5"/>
 <polygon class="head" points="110,100 107,99.5 107,100.5"/>
 </g>
-<g class="heading"><text font-size="3.43" x="90" y="40">μ</text><text font-size="2.45" x="93" y="41">V</text>
+<g class="heading"><text font-size="3.43" x="90" y="40">μ</text><text font-size="2.47" x="93" y="41">V</text>
 <text font-size="3.43" x="96" y="40">= 0,1 (м/с)/мм</text></g>
 <g class="point" data-name="p"><circle cx="60" cy="80" r="0.8" stroke-width="0.5" fill="#fff"/></g>
 <g class="pair" data-name="A"><circle cx="150" cy="60" r="1.5" stroke-width="0.5" fill="#fff"/></g>
