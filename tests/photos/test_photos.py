@@ -61,7 +61,7 @@ from kulman.variants.photos.matching import SURE, _times, lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import _print_scale, on_page, rendered
 from kulman.variants.photos.straight import ASTRAY, PER_MM, _fitted, framed, straightened, without_worst
-from kulman.variants.photos.traced import Pencil, _line, _pointed, ends_at, senses, traced
+from kulman.variants.photos.traced import Pencil, ends_at, senses, traced
 from kulman.variants.roster import Who
 from kulman.variants.sheets import drawing_for_print, scan_code
 
@@ -757,29 +757,6 @@ def test_a_small_arrowhead_tells_where_a_line_goes_on(both: bool) -> None:
 
     assert not both or abs(points[1] - head) < 0.4
     assert bool(errors[1] < 0.5) is both
-
-
-def test_the_point_of_an_arrowhead_is_where_its_wings_meet_though_they_are_a_blot_with_their_line_there() -> None:
-    pole, reach, off = 60 + 30j, 24.0, list[float]()
-    for number in range(24):
-        unit, wide = cmath.rect(1.0, 0.1 + number * math.tau / 24), 0.3 + 0.2 * (number % 3) / 2
-        paper, head = (
-            Paper(np.full((60 * 12, 120 * 12), 255, np.uint8), np.random.default_rng(number)),
-            pole + reach * unit,
-        )
-        paper.stroke(pole, head, 0.7, wide)
-        paper.stroke(head, head + 3 * unit, 0.35, 0.2)  # a construction line that goes on
-        for turn in (0.26, -0.26):
-            paper.stroke(head, head - 3.5 * unit * cmath.exp(1j * turn), 0.7, 0.9 * wide, 0.02)
-        small = cv2.resize(paper.ink, (120 * PER_MM, 60 * PER_MM), interpolation=cv2.INTER_AREA)
-        pencil = Pencil((cv2.GaussianBlur(small, (0, 0), 1.0) * 254).astype(np.uint8))
-        line = _line(pencil, pole, head, 0.6, 0.1)
-        assert line is not None
-        off += [((spot.place - head) / unit).real for spot in _pointed(pencil, line, pole, head)]
-
-    assert len(off) >= 20
-    assert abs(np.median(off)) < 0.12
-    assert np.percentile(np.abs(off), 80) < 0.3
 
 
 def test_an_arrowhead_that_is_filled_does_not_point_beyond_where_its_line_ends() -> None:

@@ -10,12 +10,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import combinations, product
 from typing import NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ...plans.laws import cross, dot
@@ -39,11 +37,6 @@ NIB, FLANK = 0.4, 0.4  # mm behind an arrowhead's point from where its wings are
 FORTH, BY = np.arange(-1.2, 1.21, 0.1), np.arange(-0.2, 0.21, 0.1)  # mm that the point is sought along and across
 TURNS = np.radians([-4.0, -2.0, 0.0, 2.0, 4.0])
 BAND, WIDE, NARROW = np.arange(0.35, 0.76, 0.1), 0.2, 0.1  # mm beside a line that is wider; how dark that is, or is not
-TENTH, LOOKS = 0.1, 64  # mm between places at which pictures of arrowheads are compared; such pictures that are kept
-MOVED, NEARLY = (12, 2), (0.1, 0.3)  # tenths along and aside that these are moved; mm about where the point seems to be
-OPEN, OPENED, UNLIKE = np.radians(np.arange(8.0, 31.0, 2.0)), math.radians(6.0), 2  # half; may differ, both wings, too
-OUTWARD, BACK, AHEAD = np.arange(0.35, 1.45, TENTH), 6, 16  # mm aside; tenths less than its wings, and beyond them
-WIDTHS, SOFT, STRANGER = (0.2, 0.7), 0.25, 0.5  # mm of lines, of their edges; what a place may miss at the most
 WIDER, BLUNT, LEVEL = 0.8, 0.55, 0.15  # mm along which it is; from there to the point; sine of lines that go on
 ALONE = 1.5  # mm of a line before its end beside which nothing is, if that is no letter
 ASIDE = 0.15  # mm, half the width of a line
@@ -100,13 +93,12 @@ class Pencil:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Traced:
-    """A line as it is drawn: through which place, in which direction; how dark and wide it is, what part is there."""
+    """A line as it is drawn: through which place, in which direction; how dark it is, what part of it is there."""
 
     through: complex
     unit: complex
     dark: float
     part: float
-    wide: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -204,7 +196,7 @@ def _line(pencil: Pencil, tail: complex, tip: complex, aside: float, step: float
 def _centred(pencil: Pencil, start: complex, stop: complex, along: Floats, level: float) -> Traced | None:
     """Return a line put on the middle of what is dark, if enough of it is."""
     across = np.arange(-0.4, 0.41, ACROSS / 2)
-    size, part, dark, wide = abs(stop - start), 0.0, 0.0, 0.0
+    size, part, dark = abs(stop - start), 0.0, 0.0
     for _ in range(2):
         unit = (stop - start) / size
         strip, hidden = pencil.at(start + along[:, None] * unit + 1j * unit * across[None, :])
@@ -215,10 +207,9 @@ def _centred(pencil: Pencil, start: complex, stop: complex, along: Floats, level
         if good.sum() < 4 or part < THERE:
             return None
         dark = float(np.median(top[good]))
-        wide = float(np.median(strip[good].sum(axis=1))) * ACROSS / 2 / dark
         base, slope = middles_of(along[good], across, strip[good], dark)
         start, stop = (start + at * unit + 1j * unit * (base + slope * at) for at in (0.0, size))
-    return Traced(start, (stop - start) / abs(stop - start), dark, part, wide)
+    return Traced(start, (stop - start) / abs(stop - start), dark, part)
 
 
 def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) -> dict[int, list[_Spot]]:
@@ -385,11 +376,8 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         best, angles = np.maximum(best, score), np.where(score > best, wing, angles)
     tops = sorted(_tops(best), key=lambda own: ASTRAY * abs(float(at[own])) - float(best[own]))
     for own in tops:  # lines that cross may look like wings, too
-        seen = foot + at[own] * unit, unit, float(angles[own]), min(WING, 0.9 * size / 3)
-        by = _apex(pencil, *seen)
+        by = _apex(pencil, foot + at[own] * unit, unit, float(angles[own]), min(WING, 0.9 * size / 3))
         if by is not None:
-            # on blurred pictures the two miss it to either side
-            by = (by + _nearer(pencil, line, *seen, by)) / 2.0
             yield _Spot(complex(foot + (at[own] + by) * unit), unit, arrow=True)
             return
     if tops:  # letters beside its wings hide how these stand out
@@ -452,48 +440,6 @@ def _apex(pencil: Pencil, apex: complex, unit: complex, angle: float, size: floa
         return None
     good = np.maximum(whole - top + TOP, 0.0)
     return float((good * FORTH[:, None, None]).sum() / good.sum())
-
-
-@lru_cache(maxsize=LOOKS)
-def _heads(tenths: int, wide: int) -> Floats:
-    """Return how dark it is around an arrowhead's point, 0 to 1, of shape (angles, along, aside): as `OPEN` says.
-
-    Its wings are at least so many `tenths` of a mm long, and so many twentieths of it `wide`.
-    """
-    along = np.arange(BACK - tenths - MOVED[0], AHEAD + MOVED[0])[:, None] * TENTH
-    aside = OUTWARD[0] + np.arange(-MOVED[1], len(OUTWARD) + MOVED[1])[None, :] * TENTH
-    line, found = np.where(along < 0.0, np.abs(aside), LOST), list[Floats]()
-    for angle in OPEN:
-        ahead = aside * math.sin(angle) - along * math.cos(angle)
-        off = np.where(ahead > 0.0, np.abs(along * math.sin(angle) + aside * math.cos(angle)), np.hypot(along, aside))
-        found.append(np.clip((wide * TENTH / 4.0 - np.minimum(off, line)) / SOFT + 0.5, 0.0, 1.0))
-    return np.array(found, np.float32)
-
-
-def _nearer(pencil: Pencil, line: Traced, apex: complex, unit: complex, angle: float, size: float, by: float) -> float:
-    """Return how far beyond a place an arrowhead has its point: pictures of some are laid over that of the page.
-
-    Near to the point its wings are but one blot with their line, of which the width tells where they meet.
-    """
-    tenths = int(size / TENTH)
-    back = np.arange(BACK - tenths, AHEAD) * TENTH
-    heads = _heads(tenths, round(float(np.clip(line.wide, *WIDTHS)) * 2.0 / TENTH))
-    moved = sliding_window_view(heads, (len(back), len(OUTWARD)), (1, 2))[:, ::-1, ::-1]  # along and aside
-    off = list[Floats]()
-    for side in (1, -1):
-        dark, hidden = pencil.at(np.asarray(apex + unit * (back[:, None] + 1j * side * OUTWARD)))
-        misses = np.minimum(
-            np.abs(moved[:, :, ::side] - np.minimum(dark / line.dark, 1.0).astype(np.float32)), STRANGER
-        )
-        off.append((misses * ~hidden).sum(axis=(3, 4)) / max(int((~hidden).sum()), 1))
-    near = np.flatnonzero(np.abs(OPEN - angle) <= OPENED).tolist()
-    both = [off[0][one] + off[1][two] for one in near for two in range(len(OPEN)) if abs(one - two) <= UNLIKE]
-    shifts = np.arange(-MOVED[0], MOVED[0] + 1) * TENTH
-    least = np.where(np.abs(shifts - by - NEARLY[0]) < NEARLY[1], np.min(both, axis=(0, 2)), STRANGER * 2.0)
-    best = int(np.clip(least.argmin(), 1, len(least) - 2))
-    before, own, after = least[best - 1 : best + 2].tolist()
-    bend = before + after - 2.0 * own
-    return float(shifts[best]) + (TENTH * 0.5 * (before - after) / bend if bend > 0.0 else 0.0)
 
 
 def _behind(wing: float, size: float) -> Floats:
