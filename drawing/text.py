@@ -99,14 +99,17 @@ class _TextLayout:
         """
         if not self.rules:
             return None
-        ink = [(run, [font(run.face).ink(letter) for letter in run.string]) for run in self.runs]
-        return (
-            min(run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in self.runs) - self.left,
-            min(run.y + min(low for _, low, _ in of) * run.size for run, of in ink) - self.bottom,
-            max(run.x + run.width + font(run.face).beyond(run.string[-1])[1] * run.size for run in self.runs)
-            - self.left,
-            max(run.y + max(high for _, _, high in of) * run.size for run, of in ink) - self.bottom,
-        )
+        left, right = _sides(self.runs)
+        ink = [(run, font(run.face).ink(letter)) for run in self.runs for letter in run.string]
+        low, high = (min(run.y + of[1] * run.size for run, of in ink), max(run.y + of[2] * run.size for run, of in ink))
+        return min(left) - self.left, low - self.bottom, max(right) - self.left, high - self.bottom
+
+
+def _sides(runs: Iterable[Run]) -> tuple[list[float], list[float]]:
+    """Return where the ink of each run begins and ends, mm."""
+    beyond = [(run, font(run.face)) for run in runs]
+    left = [run.x - of.beyond(run.string[0])[0] * run.size for run, of in beyond]
+    return left, [run.x + run.width + of.beyond(run.string[-1])[1] * run.size for run, of in beyond]
 
 
 # Width, top and bottom of what has been laid out; top < bottom where there is no ink.
@@ -247,8 +250,7 @@ def _lay_out(markup: str, height: float, lettering: _Lettering, symbols: bool) -
     width, top, bottom = pen.line(told, 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
-    left = [run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in pen.runs]
-    right = [run.x + run.width + font(run.face).beyond(run.string[-1])[1] * run.size for run in pen.runs]
+    left, right = _sides(pen.runs)
     left += [rule[0] for rule in pen.rules]
     right += [rule[2] for rule in pen.rules]
     ends = min(left, default=0.0), max(right, default=0.0)

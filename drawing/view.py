@@ -209,9 +209,10 @@ class Canvas:
         height = height or self.style.label
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
-        size, afield = layout.size, not spare
-        request = Request(name, *size, anchor, clear, prefer, priority, strict, afield, along, optional, other)
-        request = replace(request, bare=layout.bare)
+        wide, high = layout.size
+        request = Request(
+            name, wide, high, anchor, clear, prefer, priority, strict, not spare, along, optional, other, layout.bare
+        )
         self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare, first)
 
     def small(

@@ -130,8 +130,7 @@ define(
     outermost=lambda side, *places: (
         as_number(np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)) * side
     ),
-    # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
-    # the abscissa of a velocity upwards that is turned by a right angle with the cam
+    # on the S-ds/dphi diagram: the abscissa of a velocity upwards that is turned by a right angle with the cam
     turned_with=lambda analogue, sense: -analogue * sense,
     negative=lambda value: -value,
     # the angle between the sides a and b; sides in one line may be off by rounding

@@ -322,7 +322,7 @@ def _factor_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, float]:
 
 
 def fit_for(scene: Scene, name: str) -> Fits | None:
-    """Return whether a segment on its plan can show a number of a vector; None if none shows it, or a short one."""
+    """Return whether a segment on its plan can show a number of a vector; None if it is on no plan."""
     item = scene.quantities.get(role(name).shown)
     plan = "" if item is None or scene.words.ruler else _shown_on(scene, item)
     if item is None or plan not in scene.scales:

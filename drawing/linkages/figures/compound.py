@@ -22,7 +22,7 @@ from ....plans.names import vector as named
 from ...figure import ANSWERS
 from ...shapes import Arrow, Line, Pen, Shape, Vector, changed
 from ...symbols import clear_ray, turning_arrow, unit
-from ...view import UNNUMBERED, Canvas, View
+from ...view import Canvas, View
 from ..reading import Edge
 from ..scene import Scene, is_at_point, line_of
 from . import plan as plans
@@ -173,8 +173,7 @@ def _enlarged(windows: Sequence[tuple[At, Window]]) -> Iterator[str]:
     """Say which vectors have their letters in a detail."""
     for at, window in windows:
         shown = [v for v in at.vectors() if window.shows(v.tail, v.tip) and length_of(v) > 1e-6]
-        letters = ", ".join(at.scene.letter(vector.quantity) for vector in shown)
-        yield at.scene.words["said.inset"].format(vectors=letters, inset=UNNUMBERED[0])
+        yield plans.said_enlarged(at.scene.words, (at.scene.letter(vector.quantity) for vector in shown))
 
 
 def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Skeleton]:

@@ -190,7 +190,7 @@ class Sketch:
         """Return by how many steps an arm is moved that would lie within a block, where nobody could letter it."""
         blocks = (block for figure in self.figures for block in figure.blocks if abs(block.at - pole) < NEAR)
         rims = (block.rim(unit(step)) for block in blocks if abs(reach) < block.rim(unit(reach)))
-        return max(rims, default=-OUT) / abs(step) + OUT / abs(step)
+        return max((rim + OUT for rim in rims), default=0.0) / abs(step)
 
     def _upon(self, a: complex, b: complex, arms: Sequence[Stroke]) -> bool:
         """Whether a line runs along a force, a side of a block, or one of these arms, or close beside one of them."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ....plans.board import Step
 from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Line, Pen
-from ...symbols import right_angle, unit
+from ...symbols import SQUARE, right_angle, unit
 from ...view import View
 from ..reading import Edge
 from ..scene import Scene
@@ -20,7 +20,6 @@ from .plan import letter_marks
 
 ARMS = 8  # moments on a lever; where there are more, the arm of a couple is the line between its forces
 POLE = "lever.p"
-SQUARE = 2.0  # mm, the mark of a right angle
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 
 
@@ -85,9 +84,9 @@ def lever_view(scene: Scene) -> View:
         sides[name] = sketch.hang(name, at, scene.hung(scene.letter(name), f"velocity.{role(mark).of}"))
     for name, mark, other in _along_lines(scene, hung):
         at, to = _image(scene, mark), _image(scene, other)
-        if sides[name] and abs(to - at) > SQUARE:
+        if sides[name] and abs(to - at) > SQUARE[1]:
             canvas.part(name)
-            canvas.add(right_angle(at, unit(to - at), sides[name], SQUARE))
+            canvas.add(right_angle(at, unit(to - at), sides[name], SQUARE[1]))
     moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in single if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
     alone = len(arms) > MANY

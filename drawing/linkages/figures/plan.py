@@ -21,6 +21,7 @@ from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from ...text import Box
 from ...view import EACH, ELSEWHERE, UNNUMBERED, Canvas, View, write_above
+from ...words import Words
 from ..reading import Edge
 from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
@@ -506,7 +507,7 @@ def _drawn(scene: Scene, plan: str, shown: Sequence[Window], crowd: Collection[s
     for window in shown:
         inside = map(words.mark, crowd) if crowd else map(scene.letter, forces.read_in(window))
         if symbols := dict.fromkeys(inside):
-            notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=UNNUMBERED[0]))
+            notes.append(said_enlarged(words, symbols))
     heading = plan_heading(words, scene.solved.structure, plan), words.scale(scene.scales[plan])
     return with_insets(canvas, plan, heading, tuple(notes), [(forces, window) for window in shown]), marks
 
@@ -569,6 +570,11 @@ def _covers(line: Stroke, side: Stroke) -> bool:
         return False
     feet, spare = [(end - line[0]) / way for end in side], NEAR / abs(way)
     return all(abs(foot.imag) < spare and -spare < foot.real < 1.0 + spare for foot in feet)
+
+
+def said_enlarged(words: Words, letters: Iterable[str]) -> str:
+    """Say which vectors or points a detail, which is numbered later, has the letters of."""
+    return words["said.inset"].format(vectors=", ".join(letters), inset=UNNUMBERED[0])
 
 
 def said_flat(scene: Scene, plan: str) -> Iterator[str]:
