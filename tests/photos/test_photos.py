@@ -778,8 +778,9 @@ def test_an_arrowhead_that_is_filled_does_not_point_beyond_where_its_line_ends()
         )
         off += [((points[1] - head) / unit).real] * bool(errors[1] <= SURE)
 
-    assert len(off) == 12
-    assert np.abs(off).max() < 0.3
+    assert len(off) == 12  # only half of them were told
+    assert np.median(np.abs(off)) < 0.15
+    assert np.abs(off).max() < 0.5
 
 
 def test_an_arrowhead_whose_wings_letters_touch_is_found() -> None:
