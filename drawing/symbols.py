@@ -18,7 +18,7 @@ NEAREST = 2.0  # arrowheads from the vertex of an angle within which no head sta
 GUIDE = 0.75  # length of a guide in sliders
 OF_CAM = 0.2  # largest radius of the shaft in least radii of the cam
 OF_OFFSET, NEAR = 0.65, (0.6, 1.5)  # radius of the shaft in offsets where that of the circle is near, in shaft radii
-SQUARE = 0.8, 2.0  # mm, the mark of a right angle: the least, and the usual one
+SQUARE = 1.5, 2.0  # mm, the mark of a right angle: the least, and the usual one
 SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
 
 
