@@ -120,7 +120,7 @@ def paragraphs(root: Any) -> list[tuple[str, str]]:
 
 def bare(text: str) -> str:
     """Return a line without spaces, and without what tells scripts and bars from letters."""
-    return re.sub(r"\\bar|\\u|[\s\u200b{}_^]", "", text)
+    return re.sub(r"\\bar|\\u|[\s\u200b\u2060{}_^]", "", text)
 
 
 @cache
