@@ -438,6 +438,14 @@ def test_letters_of_guides_stand_at_the_ends_of_their_axes(task: str, variant: s
         assert not any(segment(a + (b - a) * 0.02, b - (b - a) * 0.02).distance(segment(at, at)) < 0.05 for a, b in on)
 
 
+def test_letters_of_a_guide_stand_at_the_end_of_its_axis_that_is_clear_of_centres_of_mass() -> None:
+    """Where S3 came to the end of the axis, its letters were led to S3."""
+    view = Linkage("scheme-19-scotch-yoke", "3", format="A3").sheet["position"]
+    at = {text.string: text.of[0] for text in view.texts if re.fullmatch("([xyz])–\\1", text.string)}
+
+    assert abs(at["x–x"] - view.point("S3")) > 10
+
+
 def arm_to(foot: complex, along: complex = 1j) -> _Arm:
     return _Arm(["F"], ["h_F"], foot, along, foot)
 

@@ -253,14 +253,15 @@ def draw_axes(canvas: Canvas, scene: Scene) -> None:
 def letter_axes(canvas: Canvas, scene: Scene) -> None:
     """Letter the axes of the frame's guides at one end of all that is drawn on them: that with more room."""
     pairs, letters = scene.sliding(), guide_letters(scene.program)
-    joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
+    centres = {link.centre for link in scene.mechanism.links if link.centre}
+    nodes = {scene.mm(name) for name in centres | {pair.point for pair in scene.mechanism.pairs}}  # have letters, too
     axes = [(line.a, line.b) for line in canvas.shapes if isinstance(line, Line) and line.pen is Pen.AXIS]
     for pair in pairs:
         at, u = scene.mm(pair.point), guide_of(scene, pair)
         own = [end for line in axes if all(abs(((end - at) / u).imag) < NEAR for end in line) for end in line]
         line = [choose(own, key=lambda end: ((end - at) / u).real) for choose in (min, max)]
-        # of several axes the far ends meet at one pivot
-        crowd = {end: len([joint for joint in joints if abs(joint - end) < 1.2 * scene.style.force]) for end in line}
+        # near a node there is less room; of several axes the far ends meet at one pivot
+        crowd = {end: len([node for node in nodes if abs(node - end) < 1.2 * scene.style.force]) for end in line}
         sign = 1.0 if len(pairs) > 1 else -1.0
         far = min(line, key=lambda end: (crowd[end], sign * abs(end - at)))
         canvas.label(letters.get(scene.solved.guide_name(pair), ""), far, prefer=-guide_up(scene, pair))
