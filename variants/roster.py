@@ -37,7 +37,7 @@ _MEANT = {"task": SCHEME, "variant": VARIANT}  # by what a column of such a name
 INITIALS = 3  # letters that may stand for a name
 MOST = 9  # digits that have a meaning
 _BARS = re.compile(r"[-‐‑–'’ʼ`]")
-_COMPOUND = re.compile(rf"\w+(?:{_BARS.pattern}\w+)+")
+_COMPOUND = re.compile(rf"\b\w+(?:{_BARS.pattern}\w+)+")
 _SHORTENED = re.compile(r"\d[.,]\d*E\+?\d+", re.IGNORECASE)  # 1,23E+11: what a spreadsheet leaves of a long number
 
 

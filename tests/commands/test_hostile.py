@@ -40,7 +40,7 @@ from kulman.variants.making.questions import Question, gift_bytes, html, xml_byt
 from kulman.variants.making.starter import _label
 from kulman.variants.marking import cells
 from kulman.variants.marking.wording import plain
-from kulman.variants.roster import _folded, read_roster, variant_of_book
+from kulman.variants.roster import _folded, _same_person, collated, read_roster, several_groups, variant_of_book
 from kulman.variants.sheets import BLOCK, variant_of_id
 from kulman.variants.shelf import bundled_text
 from kulman.variants.spreadsheets import grid as headers
@@ -381,6 +381,9 @@ READERS: dict[str, Callable[[str], object]] = {
     "slug": slug,
     "label": _label,
     "folded": _folded,
+    "a student of the roster": lambda text: _same_person(text, "Коваль Анна-Марія") or _same_person("x", text),
+    "groups": several_groups,
+    "place in the alphabet": lambda text: collated(text, "uk"),
     "surname": _surname,
     "initials": _with_initials,
     "escaped": escape,

@@ -50,9 +50,9 @@ _OF_GROUP = rf"\b(?:{'|'.join(UNDERSTOOD['titles'])})\b(?P<ends>\s*[.:№]*)\s*"
 _TITLE = re.compile(rf"{_OF_GROUP}(?P<name>.*)", re.IGNORECASE)
 _CODED = r"(?:(?-i:[A-ZА-ЯЇІЄҐ]{1,6}) \d{1,4}\w{0,2}|(?=[^\s,;(]*[^\W\d])[^\s,;(]*\d[^\s,;(]*)"  # AT 301, AT-301
 _WITHIN = re.compile(rf"{_OF_GROUP}(?P<name>(?:{_CODED}|\d{{1,3}}(?=\s*(?:[,;.(]|$))).*)", re.IGNORECASE)
-_BETWEEN_GROUPS = re.compile(rf"\s*[,;&+]\s*|\s+(?:{'|'.join(UNDERSTOOD['ands'])})\s+", re.IGNORECASE)
+_BETWEEN_GROUPS = re.compile(rf"(?<!\s)(?:\s*[,;&+]|\s+(?:{'|'.join(UNDERSTOOD['ands'])})(?=\s))\s*", re.IGNORECASE)
 _GROUP = re.compile(r"(?:[^\W\d_]{1,6}[-–.]?|[A-ZА-ЯЇІЄҐ]{1,6} )\d{1,4}\w{0,2}|\d{1,3}")
-_LETTERS_AND_DIGITS = re.compile(r"[^\W\d].*\d|\d.*[^\W\d]")
+_LETTERS_AND_DIGITS = re.compile(r"^(?=\D*\d)[\W\d]*[^\W\d]")
 _BESIDE = frozenset(UNDERSTOOD["beside"])
 _NUMBER_WORDS = frozenset(UNDERSTOOD["number_words"])
 _NUMBERED_KINDS = ("variant", "book", "group")  # of which "№" before or behind the word says no other thing
