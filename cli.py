@@ -38,7 +38,7 @@ INTERRUPTED = 130
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and exit: 0, 2 for bad input, 3 for a position without a plan, 130 when interrupted."""
+    """Run the command line and exit: 0, 2 bad input, 3 no plan in a position, 4 a file is kept, 130 interrupted."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # no matrices here: spares numpy its threads
     for stream in (sys.stdout, sys.stderr):
         console.encode(stream)

@@ -6,6 +6,8 @@ import errno
 import os
 import re
 import time
+import zipfile
+import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -15,7 +17,7 @@ from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
 from ..scales.choices import SHEETS
-from ..scales.errors import InputError
+from ..scales.errors import InputError, KeptError
 from ..scales.names import of_kind
 from ..scales.numbers import SHOWN, quote
 from .page import Page
@@ -36,13 +38,22 @@ SEVERAL = (".pdf",)  # hold several pages; of other kinds they become x-1.svg, x
 PART = ".part"  # ends the names of files that are not whole yet
 PAUSES = (0.05, 0.1, 0.2, 0.4) if os.name == "nt" else ()  # seconds between attempts
 _LEFT = re.compile(r"\.(.+)\.\d+\.part")
+# how drawings and charts begin, pages of these and of notes; what an office program says when it has saved a file
+_SVG = (
+    b'<?xml version="1.0" encoding="UTF-8"?>\n<svg base',
+    b'<?xml version="1.0" encoding="utf-8" standalone="no"?>\n<!D',
+)
+_PDF = re.compile(rb"%PDF-1\.\d\n%(?:.{5}ReportLab|\xac\xdc \xab\xba|\x80\x80\x80\x80)")
+_SAVED = re.compile(rb"<dcterms:modified[^>]*>(?!2000-01-01T)")
+LARGEST = 100_000  # bytes of what an office program says of a file
 LONGEST = 120  # bytes of a name within that of a file: systems take 255 for the whole
 
 
 def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
     """Refuse, before any work, with an InputError what cannot be written; `known` are the suffixes that can.
 
-    That is another suffix, a name that no file can have, a folder or none, a protected place, the same file twice.
+    That is another suffix, a name that no file can have, a folder or none, a protected place, the same file twice; a
+    file that another program has made or changed, with a KeptError.
     """
     seen = set()
     for path in paths:
@@ -61,6 +72,35 @@ def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
         if place in seen:
             raise InputError("output-twice", file=shown)
         seen.add(place)
+        if is_of_others(path):
+            raise KeptError("output-of-others", file=shown)
+
+
+def is_of_others(path: Path) -> bool:
+    """Tell whether there is a file with something in it that is not as this program has written it.
+
+    Of kinds that look alike whoever has written them, PNG, CSV, JSON, HTML and other text, none is.
+    """
+    if not path.is_file() or not path.stat().st_size:
+        return False
+    data = path.read_bytes()
+    match path.suffix.lower():
+        case ".svg":
+            return not data[:400].replace(b"\r\n", b"\n").startswith(_SVG)
+        case ".pdf":
+            return not _PDF.match(data) or data.count(b"%%EOF") != 1
+        case ".dxf":
+            return re.search(rb"\$LASTSAVEDBY\s+1\s+ezdxf\s", data) is None
+        case ".xlsx" | ".docx" | ".ggb":
+            try:
+                with zipfile.ZipFile(BytesIO(data)) as parts:
+                    if path.suffix.lower() == ".ggb":
+                        return parts.namelist() != ["geogebra.xml"]
+                    with parts.open("docProps/core.xml") as part:
+                        return _SAVED.search(part.read(LARGEST)) is not None
+            except (zipfile.BadZipFile, KeyError, OSError, NotImplementedError, RuntimeError, zlib.error, EOFError):
+                return True
+    return False
 
 
 def save_all(

@@ -158,6 +158,12 @@ class InputError(KulmanError, ValueError):
     """What was asked or given cannot be used; nothing has been written."""
 
 
+class KeptError(InputError):
+    """What would be written takes the place of something that people have made: it is left as it is."""
+
+    status = 4
+
+
 def as_one(faults: Iterable[KulmanError]) -> KulmanError:
     """Return one error that tells all of the faults, of which there is at least one; a single one is itself."""
     found = [*faults]

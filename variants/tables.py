@@ -23,7 +23,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
 
 from ..drawing.writers import WRITERS, Files, save_all
-from ..scales.errors import InputError
+from ..scales.errors import InputError, KeptError
 from ..scales.names import of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 
@@ -72,11 +72,18 @@ class Saved(ABC):
         Raises
         ------
         InputError
-            A kind of file that is not written, two outputs of one name, a missing extra, or a file that cannot be
-            written: then none is.
+            A kind of file that is not written, two outputs of one name, a missing extra, a file that cannot be
+            written, or one that people have filled in or saved (`KeptError`): then none is.
         """
+        from .spreadsheets.files import keep_filled_in
+
         drawn = cache(self.drawn)  # once for all files, and only where one of them shows it
-        return save_all(paths, self.suffixes, lambda path: self._files(path, drawn))
+
+        def made(path: Path) -> Files:
+            keep_filled_in(path)
+            return self._files(path, drawn)
+
+        return save_all(paths, self.suffixes, made)
 
     def drawn(self) -> Any:
         """Draw what pictures show, if there are any."""
@@ -451,7 +458,7 @@ def save_form(
 def fresh(path: Path, data: bytes) -> Files:
     """Return a file that people go on with; one of its name that holds anything else is theirs: an `InputError`."""
     if path.is_file() and path.read_bytes() != data:
-        raise InputError("output-exists", file=quote(path, SHOWN))
+        raise KeptError("output-exists", file=quote(path, SHOWN))
     return [(path, data)]
 
 

@@ -1,7 +1,11 @@
 """Bad input: one line that names the place and what was expected, status 2, nothing written."""
 
 import ast
+import csv
+import io
 import os
+import re
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +22,7 @@ from kulman.tests.support.sources import trees
 from kulman.tests.support.task_files import with_changes
 from kulman.variants.reader import LARGEST_FILE, load_task, read_text
 from kulman.variants.shelf import bundled_text
+from kulman.variants.tables import table_bytes
 
 TASK = "nau-slider-crank"
 GOOD = bundled_text(TASK)
@@ -492,7 +497,7 @@ def test_a_form_that_has_been_filled_in_is_never_written_over(
     filled = form.read_bytes() + b" "
     form.write_bytes(filled)
 
-    assert "it is left as it is" in refusal(*command, "--form", form.name)
+    assert "it is left as it is" in refusal(*command, "--form", form.name, wanted=4)
     assert form.read_bytes() == filled
 
 
@@ -517,5 +522,109 @@ def test_what_a_command_reads_is_never_written_over(
     )
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
 
-    assert read in refusal(*command)
+    assert read in refusal(*command, wanted=4)
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+TABLES = {  # of people, which no result may take the place of
+    "a form": "завдання;nau-slider-crank\nваріант;3\nвеличина;відрізок, мм;значення\nV_B;56,2;\n",
+    "a form of one's own": "quantity,value\nV_B,5.62\n",
+    "a class": "Фамилия;Вариант;V_B, м/с\nКоваль;3;5,62\n",
+    "a roster": "student,group,variant\nKoval,AT-301,3\n",
+    "data of variants": "variant,phi [deg],l_OA [mm]\n1,30,25\n",
+}
+WRITING = {
+    "solve": ("solve", TASK, "-v", "3"),
+    "sweep": ("sweep", TASK, "--positions", "6"),
+    "chart": ("chart", TASK, "--chart", "depth", "--positions", "6"),
+    "variants": ("variants", TASK, "--quantities", "V_B"),
+    "check": ("check", TASK, "answers.csv", "their.csv"),
+}
+
+
+@pytest.mark.parametrize("text", TABLES.values(), ids=TABLES)
+@pytest.mark.parametrize("command", WRITING.values(), ids=WRITING)
+@pytest.mark.parametrize("suffix", ["csv", "xlsx"])
+def test_no_result_takes_the_place_of_what_people_have_filled_in(
+    suffix: str, command: tuple[str, ...], text: str, folder: Path, refusal: Callable[..., str]
+) -> None:
+    rows = [*csv.reader(text.splitlines(), delimiter=";" if ";" in text else ",")]
+    for name in ("answers.csv", "their.csv"):
+        Path(name).write_text("variant,3\nquantity,value\nV_B,5.62\n")
+    filled = Path(f"filled.{suffix}")
+    filled.write_bytes(table_bytes(filled, rows, "uk", "", [], 0))
+    before = filled.read_bytes()
+
+    told = refusal(*command, "-o", "new.json" if command[0] != "check" else "new.xlsx", "-o", filled.name, wanted=4)
+
+    assert re.fullmatch(rf"filled\.{suffix}: .*give another name.*", told)
+    assert filled.read_bytes() == before
+
+
+@pytest.mark.parametrize("command", WRITING.values(), ids=WRITING)
+def test_the_same_command_may_be_run_again_over_its_own_output(
+    command: tuple[str, ...], folder: Path, run: Run
+) -> None:
+    for name in ("answers.csv", "their.csv"):
+        Path(name).write_text(f"variant,3\nname,{name}\nquantity,value\nV_B,5.62\n")
+    kinds = (".csv", ".xlsx", *{"check": (".html",), "solve": (".json",)}.get(command[0], (".pdf", ".svg")))
+    kinds = (*kinds[:2], ".xml", ".html") if command[0] == "variants" else kinds
+    again = [f for kind in kinds for f in ("-o", f"own{kind}")] + ["--moodle", "moodle.csv"] * (command[0] == "check")
+    Path("own.csv").touch()  # an empty file is nobody's
+
+    for language in (*LANGUAGES, "en"):
+        assert run(*command, *again, "--lang", language)[0] == 0
+
+
+def inkscape(data: bytes) -> bytes:
+    """Return a drawing as Inkscape saves it again."""
+    return re.sub(rb"<svg ", b'<svg\n   sodipodi:docname="plans.svg"\n   ', data, count=1).replace(
+        b"?>", b' standalone="no"?>', 1
+    )
+
+
+def saved_again(data: bytes) -> bytes:
+    """Return a file of an office program as it is when one has saved it."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w") as new:
+        for name in old.namelist():
+            text = old.read(name)
+            if name == "docProps/core.xml":
+                text = re.sub(rb"<dcterms:modified.*</dcterms:modified>", b"", text)
+                at = b'<dcterms:modified xsi:type="dcterms:W3CDTF">2026-12-01T10:00:00Z</dcterms:modified></cp:coreP'
+                text = text.replace(b"</cp:coreP", at)
+            new.writestr(name, text)
+        if "geogebra.xml" in old.namelist():
+            new.writestr("geogebra_thumbnail.png", b"")
+    return stream.getvalue()
+
+
+CHANGED: dict[str, tuple[tuple[str, ...], Callable[[bytes], bytes]]] = {
+    "own.svg": (("sheet", TASK, "--only", "velocity"), inkscape),
+    "own.dxf": (("sheet", TASK, "--only", "velocity"), lambda data: data.replace(b"ezdxf", b"Olha K")),
+    "own.pdf": (("handout", TASK, "--only", "velocity"), lambda data: data + b"1 0 obj\n<<>>\nendobj\n%%EOF\n"),
+    "own.ggb": (("sheet", TASK, "--only", "velocity"), saved_again),
+    "own.docx": (("note", TASK, "--only", "velocity"), saved_again),
+    "own.xlsx": (("sweep", TASK, "--positions", "6"), saved_again),
+}
+
+
+@pytest.mark.parametrize("name", CHANGED)
+def test_what_another_program_has_saved_is_not_written_over(
+    name: str, folder: Path, run: Run, refusal: Callable[..., str]
+) -> None:
+    command, change = CHANGED[name]
+    assert [run(*command, "-o", name)[0] for _ in range(2)] == [0, 0]
+    changed = change(Path(name).read_bytes())
+    Path(name).write_bytes(changed)
+
+    for language, said in zip(LANGUAGES, ("інша програма", "другая программа", "another program"), strict=True):
+        assert said in refusal(*command, "-o", name, "--lang", language, wanted=4)
+    assert Path(name).read_bytes() == changed
+
+
+def test_from_python_nothing_that_people_have_filled_in_is_lost(folder: Path) -> None:
+    Path("form.csv").write_text("variant,3\nquantity,value\nV_B,5.62\n")
+
+    with pytest.raises(InputError, match=r"form\.csv: .*give another name"):
+        solve(TASK, "3").save("form.csv")

@@ -611,7 +611,7 @@ def test_a_bundled_task_is_shown_and_copied_to_begin_with(folder: Path, run: Run
         status, shown, _ = run("show", "scheme-09-shaper", "--lang", language)
         assert (status, tomllib.loads(shown)) == (0, tomllib.loads(bundled_text("scheme-09-shaper")))
     assert run("new", "--from", "scheme-09-shaper", "my shaper") == (0, "my shaper.toml\n", "")
-    assert run("new", "--from", "scheme-09-shaper", "my shaper.toml")[0] == 2  # it stays
+    assert run("new", "--from", "scheme-09-shaper", "my shaper.toml")[0] == 4  # it stays
     assert "did you mean scheme-09-shaper" in run("show", "scheme-09-shapr")[2]
     assert run("new", "--from", "nothing", "other.toml")[0] == run("show", "my shaper.toml")[0] == 2
     assert run("new", "--from", TASK, "--kind", "cam", "other.toml")[0] == 2

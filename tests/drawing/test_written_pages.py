@@ -284,7 +284,8 @@ def test_a_failed_writer_leaves_the_old_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: type[BaseException]
 ) -> None:
     target, others = tmp_path / "x.svg", []
-    target.write_text("old")
+    write_pages([sheet()], target)
+    old = target.read_bytes()
 
     def fail(pages: object, stream: BytesIO) -> None:
         stream.write(b"half")
@@ -298,21 +299,26 @@ def test_a_failed_writer_leaves_the_old_file(
     with pytest.raises(broken):
         write_pages([sheet()], target, *others)
 
-    assert target.read_text() == "old"
+    assert target.read_bytes() == old
     assert list(tmp_path.iterdir()) == [target]
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is always full")
 def test_a_full_disk_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     target = tmp_path / "x.svg"
-    target.write_text("old")
+    write_pages([sheet()], target)
+    old = target.read_bytes()
     with monkeypatch.context() as patch:
-        patch.setattr(type(target), "open", lambda path, mode: open("/dev/full", "wb"))  # noqa: SIM115
+
+        def opened(path: Path, mode: str, **more: int) -> object:
+            return open("/dev/full", "wb") if mode == "xb" else open(path, mode, **more)
+
+        patch.setattr(type(target), "open", opened)
         with pytest.raises(InputError) as problem:
             write_pages([sheet()], target)
     assert problem.value.key == "output-refused"
     assert "No space" in problem.value.text("en")
-    assert target.read_text() == "old"
+    assert target.read_bytes() == old
 
 
 @pytest.mark.parametrize("sweep", [0.5, -0.5, 3.0, -6.0, math.tau, 1e5, -1e5])

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ...scales.choices import HANDS
-from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
+from ...scales.errors import LANGUAGES, KeptError, KulmanError, system_language
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
@@ -203,12 +203,15 @@ class Command(click.Command):
         return self.name or ""
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Do it, unless a file that it reads would be written over: those of people, whose work it is."""
+        """Do it, unless a file of people would be written over, whose work it is: one that is read, or filled in."""
         outputs = (*ctx.params.get("files", ()), *filter(None, [ctx.params.get("moodle")]))
         for output in filter(os.path.exists, outputs):
             for name in filter(os.path.exists, _files_named(ctx.params.values())):
                 if os.path.samefile(name, output):
-                    raise InputError("output-read", file=quote(output, SHOWN))
+                    raise KeptError("output-read", file=quote(output, SHOWN))
+            from ..spreadsheets.files import keep_filled_in
+
+            keep_filled_in(output)
         return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...drawing.words import Words
-from ...scales.errors import LANGUAGES, InputError, messages
+from ...scales.errors import LANGUAGES, InputError, KeptError, messages
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import home
 from ..case import kind_of
@@ -144,7 +144,7 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], sou
         with path.open("x", encoding="utf-8", newline="\n") as stream:
             stream.write(text)
     except FileExistsError as error:
-        raise InputError("output-exists", file=shown) from error
+        raise KeptError("output-exists", file=shown) from error
     except OSError as error:
         raise InputError("output-refused", file=shown, reason=error.strerror or "") from error
     return path

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from ...scales.errors import InputError
+from ...scales.errors import InputError, KeptError
 from ...scales.numbers import SHOWN, quote
 from ..drawings.apart import handed_in
 from . import grid
@@ -63,6 +63,26 @@ def read_grid(file: str | Path) -> grid.Grid:
     if not data.strip():
         raise InputError("answers-empty", file=shown)
     return (_grid_of_xlsx if suffix == ".xlsx" else _grid_of_csv)(str(Path(file)), data)
+
+
+def keep_filled_in(file: Path) -> None:
+    """Raise a KeptError where there is a table that people fill in: a form, answers, a roster, data of variants."""
+    if file.suffix.lower() in grid.SUFFIXES and file.is_file() and _is_filled_in(file):
+        raise KeptError("output-form", file=quote(file, SHOWN))
+
+
+def _is_filled_in(file: Path) -> bool:
+    """Tell whether a table is one that people fill in, by the words over its columns; no result of this program is."""
+    with suppress(InputError):
+        for row in read_grid(file).rows[: grid.LOOKED_AT]:
+            kinds, about = {*map(grid.column_kind, row)}, {*map(grid.about_kind, row)} - {None}
+            if any(heads in f";{';'.join(row)};" for heads in grid.UNDERSTOOD["results"]):
+                break
+            if {"name"} <= kinds and kinds & {"mm", "value", "direction"}:
+                return True
+            if about and "unit" not in kinds and len([*filter(None, row)]) > 1:
+                return True
+    return False
 
 
 def _grid_of_csv(file: str, data: bytes) -> grid.Grid:
