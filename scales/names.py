@@ -15,6 +15,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from .errors import InputError, UnknownNameError, Written, as_one
 from .numbers import quote
+from .units import UnitName
 
 _CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
 _ALIKE = str.maketrans(_CYRILLIC, _LATIN)
@@ -71,6 +72,20 @@ def unknown(key: str, asked: object, known: Iterable[str], also: Iterable[str] =
     shown = ", ".join(listed)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST].rpartition(', ')[0]}, …"
     return UnknownNameError(key, text=quote(text), known=Written(shown or "—"), **data)
+
+
+def unknown_given(asked: str, known: Iterable[str], task: str) -> UnknownNameError:
+    """Return the error for a given that a task has not; where it has the same speed in its other measure, with that.
+
+    >>> print(unknown_given("ω_1", ["l_AB", "n_1"], "press").text("uk"))
+    завдання press не має величини «ω_1», а має n_1; задайте її так: «n_1 = … рад/с»
+    """
+    names, (kind, line, link) = [*known], asked.translate(GREEK).partition("_")
+    for other, unit in (("n", "rad/s"), ("omega", "rpm")):
+        if kind != other and kind in ("n", "omega") and f"{other}{line}{link}" in names:
+            told = {"text": quote(asked), "task": Written(task), "unit": UnitName(unit)}
+            return UnknownNameError("given-speed", like=Written(f"{other}{line}{link}"), **told)
+    return unknown("given-unknown", asked, names, task=task)
 
 
 def _bare(text: str) -> str:

@@ -23,7 +23,7 @@ from ..plans.linkages.solved import board_givens
 from ..plans.quantities import Quantity, results, unit_of
 from ..plans.solved import Columned
 from ..scales.errors import InputError, Written
-from ..scales.names import all_known, by_name, named, names_of, of_its_kinds, unknown
+from ..scales.names import all_known, by_name, named, names_of, of_its_kinds, unknown, unknown_given
 from ..scales.numbers import quote
 from ..scales.series import Series
 from ..scales.units import UnitName, converted, parse, unit
@@ -194,7 +194,7 @@ def solve_many(
     givens = {named(name, asked.givens): value for name, value in givens.items()}
     for name, value in {**first, **givens}.items():
         if name not in asked.givens:
-            raise unknown("given-unknown", name, asked.givens, task=asked.id)
+            raise unknown_given(name, asked.givens, asked.id)
         of = asked.givens[name].unit
         if isinstance(value, Quantity) and value.kind != "point":
             value = float(value), value.unit

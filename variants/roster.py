@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..scales.errors import InputError, UnknownNameError, Written
-from ..scales.names import latin, of_kind, unknown
+from ..scales.names import latin, of_kind, unknown, unknown_given
 from ..scales.numbers import SHOWN, quote
 from .spreadsheets.files import read_grid
 from .spreadsheets.grid import (
@@ -304,7 +304,7 @@ def _columns(grid: Grid, header: int, schemes: Schemes, of: Task | None) -> _Col
         elif symbol(head) in symbols:
             givens[column] = (symbols[symbol(head)], unit)
         elif part is not None and "_" in text:
-            error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
+            error = unknown_given(part[0], known, ", ".join(schemes.ids))
             raise LocatedError(grid.place(header, column), error)
     return _Columns(grid, about, givens, schemes, of, dict(grid.students(header)))
 
@@ -347,7 +347,7 @@ def _settings(columns: _Columns, row: int, task: Task) -> Iterator[tuple[str, st
         value = f"{text} {unit}" if unit and re.fullmatch(r"[-−+0-9.,\s]+", text) else text
         try:
             if name not in task.givens:
-                raise unknown("given-unknown", name, task.givens, task=task.id)
+                raise unknown_given(name, task.givens, task.id)
             task.givens[name].read(value)
         except InputError as error:
             raise LocatedError(f"{columns.grid.place(row, column)}, {name}", error) from error

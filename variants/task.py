@@ -16,7 +16,7 @@ from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..plans.quantities import Quantity
 from ..scales.errors import InputError, KulmanError, as_one, spoken
 from ..scales.givens import Bound, Described
-from ..scales.names import latin, unknown
+from ..scales.names import latin, unknown, unknown_given
 from ..scales.numbers import quote
 from ..scales.scale import AS_INSIDE, Display
 from ..scales.units import Unit, UnitName, bounded, parse
@@ -251,7 +251,7 @@ class Task:
         if name not in self.givens:
             if isinstance(self.subject, Described) and name in self.subject.givens:
                 raise InputError("given-absent", text=name, task=quote(self.id), known=", ".join(self.givens))
-            raise unknown("given-unknown", name, self.givens, task=self.id)
+            raise unknown_given(name, self.givens, self.id)
         try:
             return self.givens[name].read(value)
         except InputError as error:

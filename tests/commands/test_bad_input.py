@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from kulman import sheet, solve
+from kulman import sheet, solve, solve_many
 from kulman.scales.errors import LANGUAGES, InputError, KulmanError, messages
 from kulman.tests.support import broken_files as brokens
 from kulman.tests.support.broken_files import BROKEN, LOADED, broken
@@ -524,6 +524,29 @@ def test_what_a_command_reads_is_never_written_over(
 
     assert read in refusal(*command, wanted=4)
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("task", "name", "hint"),
+    [
+        (TASK, "omega_1", "n_1 = … rad/s"),
+        (TASK, "ω_1", "n_1 = … rad/s"),
+        ("bertyaev-six-bar", "n_1", "omega_1 = … rpm"),
+    ],
+)
+def test_a_speed_in_its_other_measure_is_told_as_the_task_takes_it(
+    task: str, name: str, hint: str, folder: Path, refusal: Callable[..., str]
+) -> None:
+    Path("roster.csv").write_text(f"student,variant,{name}\nKoval,3,70\n", encoding="utf-8")
+    for command in (
+        ("solve", task, "--set", f"{name}=70"),
+        ("batch", task, "--roster", "roster.csv", "--out", "out"),
+        ("variants", task, "--make", "2", "--range", f"{name}=60..70"),
+    ):
+        assert f"give it as '{hint}'" in refusal(*command)
+    with pytest.raises(InputError, match="give it as"):
+        solve_many(task, **{name: [70.0]}) if name.isascii() else solve(task, set={name: 70.0})
+    assert solve(task, set={hint.partition(" ")[0]: f"70 {hint.rpartition(' ')[2]}"}).status == "ok"
 
 
 TABLES = {  # of people, which no result may take the place of

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ...drawing.writers import slug
 from ...scales.errors import LANGUAGES, InputError, KulmanError, Written, as_one
-from ...scales.names import by_name, unknown
+from ...scales.names import by_name, unknown_given
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import parse
@@ -230,7 +230,7 @@ def _ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, _Range]:
     for name, text in asked.items():
         given = task.givens.get(name)
         if given is None:
-            raise unknown("given-unknown", name, found, task=task.id)
+            raise unknown_given(name, found, task.id)
         if given.unit is None:
             raise LocatedError(name, InputError("range-given", known=", ".join(found)))
         try:
