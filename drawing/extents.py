@@ -61,9 +61,16 @@ class Extent:
 
 
 def visible(chooser: Chooser | None, symbol: str, mu: float, largest: float, unit: str) -> None:
-    """Refuse a scale factor that a user has fixed and at which the `largest` quantity, in SI `unit`s, is a point."""
-    if chooser is not None and chooser.firm:
-        not_a_point(symbol, mu, largest, unit)
+    """Refuse a scale factor that a user has fixed and at which the `largest` quantity, in SI `unit`s, is a point.
+
+    So is one at which it is longer than any sheet from corner to corner.
+    """
+    if chooser is None or not chooser.firm:
+        return
+    not_a_point(symbol, mu, largest, unit)
+    if largest > math.hypot(FORMATS[SIZES[-1]].width, FORMATS[SIZES[-1]].height) * mu:
+        said = {"mu": f"{mu:g}", "unit": Scale(symbol, mu, unit).per_mm_unit, "size": f"{largest / mu:.3g}"}
+        raise InputError("plan-too-long", symbol=symbol, **said)
 
 
 def not_a_point(symbol: str, mu: float, largest: float, unit: str) -> None:

@@ -183,6 +183,25 @@ def test_scale_factors_at_which_a_plan_is_a_point_are_refused(task: str, symbol:
 
 
 @pytest.mark.parametrize(
+    ("task", "symbol", "mu"),
+    [
+        ("nau-slider-crank", "mu_V", "0.001"),
+        ("nau-slider-crank", "mu_F_23", "0.01"),
+        ("madi-cam", "mu_l", "1e-6"),
+        ("madi-gear", "mu_l", "1e-5"),
+        ("karpenko-hoist", "mu_F_circle", "0.1"),
+    ],
+)
+def test_scale_factors_at_which_no_sheet_has_a_segment_are_refused_before_anything_is_drawn(
+    task: str, symbol: str, mu: str
+) -> None:
+    for command in (kulman.solve, kulman.sheet):
+        with pytest.raises(InputError) as refused:
+            command(task, scales={symbol: mu})  # type: ignore[operator]
+        assert (refused.value.key, refused.value.data["symbol"]) == ("plan-too-long", symbol)
+
+
+@pytest.mark.parametrize(
     ("asked", "size"),
     [
         pytest.param({"set": {"L": "40 m"}, "scales": {"mu_l": 45}}, 40.0 / 45, id="a rope longer than the beams"),
