@@ -67,17 +67,17 @@ SYMBOLS: dict[str, _Symbol] = {
     "arcmin": _Symbol(_ANGLE, math.pi, 10_800, "′", "′", "′", ("arcmin", "'", "’")),
     "rev": _Symbol(_ANGLE, 2 * math.pi, 1, "rev", "об", "об", ("r",)),
     "rpm": _Symbol(Dimension(time=-1, angle=1), math.pi, 30, "rpm", "об/хв", "об/мин", ("RPM",)),
-    "N": _Symbol(_FORCE, 1, 1, "N", "Н", "Н"),
-    "kN": _Symbol(_FORCE, 1000, 1, "kN", "кН", "кН"),
+    "N": _Symbol(_FORCE, 1, 1, "N", "Н", "Н", ("н",)),
+    "kN": _Symbol(_FORCE, 1000, 1, "kN", "кН", "кН", ("кн",)),
     "MN": _Symbol(_FORCE, 1_000_000, 1, "MN", "МН", "МН"),
-    "Pa": _Symbol(_PRESSURE, 1, 1, "Pa", "Па", "Па"),
-    "kPa": _Symbol(_PRESSURE, 1000, 1, "kPa", "кПа", "кПа"),
+    "Pa": _Symbol(_PRESSURE, 1, 1, "Pa", "Па", "Па", ("па",)),
+    "kPa": _Symbol(_PRESSURE, 1000, 1, "kPa", "кПа", "кПа", ("кпа",)),
     "MPa": _Symbol(_PRESSURE, 1_000_000, 1, "MPa", "МПа", "МПа"),
     "GPa": _Symbol(_PRESSURE, 1_000_000_000, 1, "GPa", "ГПа", "ГПа"),
-    "J": _Symbol(_ENERGY, 1, 1, "J", "Дж", "Дж"),
+    "J": _Symbol(_ENERGY, 1, 1, "J", "Дж", "Дж", ("дж",)),
     "kJ": _Symbol(_ENERGY, 1000, 1, "kJ", "кДж", "кДж"),
-    "W": _Symbol(_POWER, 1, 1, "W", "Вт", "Вт"),
-    "kW": _Symbol(_POWER, 1000, 1, "kW", "кВт", "кВт"),
+    "W": _Symbol(_POWER, 1, 1, "W", "Вт", "Вт", ("вт",)),
+    "kW": _Symbol(_POWER, 1000, 1, "kW", "кВт", "кВт", ("квт",)),
     "%": _Symbol(Dimension(), 1, 100, "%", "%", "%"),
 }
 
@@ -103,7 +103,7 @@ _TOKEN = re.compile(
     r"|(?P<sign>[*·⋅×∙./()])|(?P<symbol>[A-Za-zµμА-Яа-яІіЇїЄєҐґ]+|[°º˚′'’%]))\s*"
 )
 # Нм, kgm²: moments as they are written by hand
-_JOINED = re.compile(r"\b([kк]?[NН]|kg|кг)((?:[mм]|[cс])?[mм])(?![A-Za-zА-Яа-яІіЇїЄєҐґ])")
+_JOINED = re.compile(r"\b([kк]?[NНн]|kg|кг)((?:[mм]|[cс])?[mм])(?![A-Za-zА-Яа-яІіЇїЄєҐґ])")
 _FULL_STOP = re.compile(r"(?<=\S)\.(?![^\W⁰¹²³⁴⁵⁶⁷⁸⁹])")  # об./мин.; between letters it multiplies: Н.м
 _TIMES = frozenset("*·⋅×∙.")
 _LONGEST = 40
