@@ -282,6 +282,25 @@ def test_columns_that_changed_places_are_put_back_and_others_stay(tmp_path: Path
     assert in_place.lines["V_B"].mm == pytest.approx(55.2)
 
 
+@pytest.mark.parametrize("beside", [True, False])
+def test_a_segment_and_a_value_that_changed_places_in_one_line_are_put_back_and_told(
+    tmp_path: Path, beside: bool
+) -> None:
+    mu = "0,05" if beside else ""
+    head = HEAD if beside else HEAD + "mu_V;;0,05;;;\n"
+    rows = f"V_A;80;{mu};4;;\nV_BA;42;{mu};2,1;;\n"
+    one_of, right, no_comma = (
+        one(tmp_path, head + rows + f"V_B;{mm};{mu};{value};;\n")
+        for mm, value in (("2,76", "55,2"), ("55,2", "2,76"), ("55,2", "276"))
+    )
+
+    assert (one_of.lines["V_B"].mm, one_of.lines["V_B"].value) == pytest.approx((55.2, 2.76))
+    assert [one_of.lines[name] for name in ("V_A", "V_BA")] == [right.lines[name] for name in ("V_A", "V_BA")]
+    assert ["V_B: segment and value are in each other's place" in text for text in messages(one_of)] == [True]
+    assert right.problems == no_comma.problems == ()
+    assert (no_comma.lines["V_B"].mm, no_comma.lines["V_B"].value) == pytest.approx((55.2, 276.0))
+
+
 def test_who_exchanges_columns_in_a_class_is_put_right_and_nobody_else(tmp_path: Path) -> None:
     head = "ПІБ;варіант;mu_V;V_A.mm;V_A;V_B.mm;V_B;V_BA.mm;V_BA\n"
 

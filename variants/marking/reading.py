@@ -382,12 +382,24 @@ class _Sheet:
         return bare, written, next((x for x in (angle, side, other) if x is not None), None), sense
 
     def put_in_place(self, place: str) -> None:
-        """Exchange segments and values where nearly all lines of a student agree only so; `place` is told of it."""
+        """Exchange segments and values where nearly all lines of a student agree only so; `place` is told of it.
+
+        Of others a line is exchanged alone where its value is of the size of the task's only so.
+        """
         only = [_only_exchanged(line, self.scales, self.asked) for line in self.lines.values()]
         told = [exchanged for exchanged in only if exchanged is not None]
         if len(told) >= FEWEST and sum(told) >= MOST * len(told):
             self.lines = {name: _in_place(line, self.asked) for name, line in self.lines.items()}
             self.problems.append(LocatedError(place, InputError("answers-swapped")))
+            return
+        for (name, line), exchanged in zip([*self.lines.items()], only, strict=True):
+            if exchanged and apart((instead := _exchanged(line, self.asked)).value or 0.0, self._size(name)) < CLEAR:
+                self.lines[name] = instead
+                self.problems.append(LocatedError(line.place, InputError("answers-swapped-line", name=quote(name))))
+
+    def _size(self, name: str) -> float:
+        """Return how large a quantity is in the task."""
+        return abs(self.asked.quantities[name].value or 0.0)
 
     def answers(self, source: str, about: Mapping[str, str], columns: tuple[str, ...] = ()) -> Answers:
         """Return what has been read."""
