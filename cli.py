@@ -249,7 +249,7 @@ def page(tasks: tuple[str, ...], folder: str, jobs: int, lang: str | None) -> in
     """Write a site of pages on which plans move: all variants of each TASK, or of all, with an index."""
     from .variants.batches.site import site
 
-    with console.progress() as advance:
+    with console.progress(folder=folder) as advance:
         made = site(folder, tasks, lang=lang or "uk", jobs=jobs or None, advance=advance)
     click.echo(messages(system_language())["site-done"].format(n=made.pages, file=made.index))
     for problem in made.problems:

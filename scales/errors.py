@@ -164,6 +164,12 @@ class KeptError(InputError):
     status = 4
 
 
+class StoppedError(KulmanError):
+    """Somebody has interrupted long work."""
+
+    status = 130
+
+
 def as_one(faults: Iterable[KulmanError]) -> KulmanError:
     """Return one error that tells all of the faults, of which there is at least one; a single one is itself."""
     found = [*faults]

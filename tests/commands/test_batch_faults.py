@@ -358,3 +358,43 @@ def test_processes_that_start_anew_give_the_same_bytes(tmp_path: Path, start: st
     batch(TASK, file, tmp_path / "one", kinds=["svg", "pdf"], lang="en", jobs=1)
 
     assert files(tmp_path / "two") == files(tmp_path / "one")
+
+
+@pytest.mark.parametrize(
+    ("lang", "told", "again"),
+    [
+        ("uk", "перервано: готово 3 з 5, вони лишилися в теці «out»", "нічого не записано"),
+        ("ru", "прервано: готово 3 из 5, они остались в папке «out»", "ничего не записано"),
+        ("en", "interrupted: 3 of 5 are done and stay in the folder 'out'", "nothing has been written"),
+    ],
+)
+def test_an_interrupted_run_says_what_is_written_and_goes_on_from_there(
+    lang: str,
+    told: str,
+    again: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    made: list[int],
+    run: commands.Run,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    command = ("batch", TASK, "--roster", str(roster(tmp_path, 5)), "--out", "out", "--jobs", "1", "--lang", lang)
+    note = Journal.note
+
+    def stopped(after: int) -> Callable[..., None]:
+        def noted(journal: Journal[Outcome], name: str, done: Outcome) -> None:
+            if len(made) > after:
+                raise KeyboardInterrupt
+            note(journal, name, done)
+
+        return noted
+
+    for after, words in ((0, again), (3, told)):
+        monkeypatch.setattr(Journal, "note", stopped(after))
+        made.clear()
+        status, out, err = run(*command)
+        assert (status, out, err.count("\n"), words in err) == (130, "", 1, True), err
+    monkeypatch.setattr(Journal, "note", note)
+    made.clear()
+    assert run(*command)[0] == 0
+    assert 0 < len(made) < 5  # the others are not made again

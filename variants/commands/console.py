@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 import click
 
 from ...scales.choices import FORMATS, LETTERINGS, PROFILES
-from ...scales.errors import LANGUAGES, InputError, KulmanError, as_one, system_language
+from ...scales.errors import LANGUAGES, InputError, KulmanError, StoppedError, as_one, system_language
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from . import helping
@@ -285,11 +285,30 @@ def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool 
 
 
 @contextmanager
-def progress(lazy: bool = False) -> Iterator[Callable[[int, int], None]]:
+def progress(lazy: bool = False, folder: str | None = None) -> Iterator[Callable[[int, int], None]]:
     """Show on a console how far long work is: told how many students, or charts, more are done, and of how many.
 
-    What may not be long is `lazy`: nothing is shown before it is told of.
+    What may not be long is `lazy`: nothing is shown before it is told of. Where it is interrupted it is said what has
+    been written: what is done into a `folder` stays there, nothing else is written before all is done.
     """
+    done = [0, 0]
+    try:
+        with _bar(lazy) as show:
+
+            def advance(more: int, whole: int) -> None:
+                done[:] = done[0] + more, whole
+                show(more, whole)
+
+            yield advance
+    except KeyboardInterrupt:
+        if folder is None or not done[0]:
+            raise StoppedError("interrupted") from None
+        raise StoppedError("interrupted-within", n=done[0], whole=done[1], folder=quote(folder, SHOWN)) from None
+
+
+@contextmanager
+def _bar(lazy: bool) -> Iterator[Callable[[int, int], None]]:
+    """Show a bar on a console, and nothing elsewhere."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield lambda done, whole: None
         return

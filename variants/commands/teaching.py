@@ -159,7 +159,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     from ..batches.batch import batch as draw_class
 
     block = console.without_none({name: options.pop(name) for name in console.BLOCK})
-    with console.progress() as advance:
+    with console.progress(folder=folder) as advance:
         made = draw_class(tasks, roster, folder, **block, advance=advance, jobs=jobs or None, **options)
     console.warn(made.warnings)
     bad = made.problems
@@ -242,7 +242,7 @@ def _mark(
         told.save(*files)
     else:
         found = asked.ordered(found)
-        with console.progress() as advance:
+        with console.progress(folder=folder) as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)
         write_tables(asked, results, found, files, moodle)
         for line in class_lines(asked.listed(found, results), system_language()):
