@@ -198,7 +198,7 @@ def _check(files: Sequence[str], as_json: bool) -> int:
 @console.output(".solution")
 @console.as_json
 def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
-    """Solve TASK (an id, or a TOML file) and show all quantities."""
+    """Solve TASK (an id, a TOML file, or - for standard input) and show all quantities."""
     from .variants.solution import solve as solve_task
 
     solution, language = solve_task(task, set=settings, **options), options["lang"] or system_language()

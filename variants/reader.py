@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, BinaryIO
 
 from ..drawing.words import notations
 from ..scales.errors import LANGUAGES, InputError, Written, messages
@@ -185,6 +185,20 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
         data = path.read_bytes()
     except OSError as error:
         raise InputError("file-unreadable", file=shown) from error
+    return _text_of(data, shown)
+
+
+def task_of_stream(stream: BinaryIO, shown: str) -> Task:
+    """Return the task in a stream of bytes, such as standard input, as one in a file that messages call `shown`."""
+    data = stream.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise InputError("file-large", file=shown, n=LARGEST_FILE // 1_000_000)
+    text = _text_of(data, shown)
+    return replace(task_of(text, shown), written=text)
+
+
+def _text_of(data: bytes, shown: str) -> str:
+    """Return the text of a task file."""
     if not data.strip():
         raise InputError("file-empty", file=shown)
     try:

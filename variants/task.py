@@ -151,7 +151,8 @@ class Task:
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     `note` is what a user should know of the data, by language;
     `number` is its own in designations of sheets, 0 where the file says none;
-    `instead` says of which givens, once a user has set them, others of the variant no longer hold.
+    `instead` says of which givens, once a user has set them, others of the variant no longer hold;
+    `written` is the text of one that comes from no file.
     """
 
     id: str
@@ -171,6 +172,7 @@ class Task:
     instead: Instead = ()
     note: Mapping[str, str] = field(default_factory=dict)
     number: int = 0
+    written: str = ""
 
     def __repr__(self) -> str:
         """Return the id and how many variants there are."""
@@ -190,6 +192,8 @@ class Task:
     @property
     def text(self) -> str:
         """The text of the file that says all this, as it is now."""
+        if self.written:
+            return self.written
         return decoded(Path(self.file).read_bytes()) if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | int | None = None) -> Variant:

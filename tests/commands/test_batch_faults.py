@@ -363,9 +363,9 @@ def test_processes_that_start_anew_give_the_same_bytes(tmp_path: Path, start: st
 @pytest.mark.parametrize(
     ("lang", "told", "again"),
     [
-        ("uk", "перервано: готово 3 з 5, вони лишилися в теці «out»", "нічого не записано"),
-        ("ru", "прервано: готово 3 из 5, они остались в папке «out»", "ничего не записано"),
-        ("en", "interrupted: 3 of 5 are done and stay in the folder 'out'", "nothing has been written"),
+        ("uk", "перервано: готово 3 з 5; готове лишилося в теці «out»", "нічого не записано"),
+        ("ru", "прервано: готово 3 из 5; готовое осталось в папке «out»", "ничего не записано"),
+        ("en", "interrupted: 3 of 5 done, which stay in the folder 'out'", "nothing has been written"),
     ],
 )
 def test_an_interrupted_run_says_what_is_written_and_goes_on_from_there(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import re
 import string
@@ -279,6 +280,28 @@ def test_place_where_no_file_can_be_written_is_refused(name: str, key: str, fold
     assert refused.value.key == key
     assert Path("there.toml").read_text(encoding="utf-8") == "mine"
     assert sorted(path.name for path in Path().iterdir()) == ["folder.toml", "there.toml"]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_task_may_come_from_standard_input(
+    encoding: str, folder: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def piped(data: bytes) -> None:
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(data), encoding="utf-8"))
+
+    start("own.toml", "uk")
+    data = Path("own.toml").read_text(encoding="utf-8").encode(encoding)
+    by_name = run("solve", "own.toml", "--json")[1]
+    for command in (["solve", "-", "--json"], ["batch", "-", "--form", "class.csv"], ["check", "-", "--form", "f.csv"]):
+        piped(data)
+        status, out, err = run(*command)
+        assert (status, err) == (0, "")
+        assert command[0] != "solve" or out == by_name
+
+    for bad, message in ((b" \n", "-: "), (b"id = 3", "-:1"), (b"x" * 1_000_001, "1 MB")):
+        piped(bad)
+        status, out, err = run("solve", "-", "--lang", "en")
+        assert (status, out, message in err) == (2, "", True), err
 
 
 # The customary schemes of course projects: I is the driver, then the groups by class and kind (class III by order) with

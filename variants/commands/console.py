@@ -128,6 +128,7 @@ def _value(key: str, given: object) -> str:
 
 
 CLOSED = 1
+STREAM = "-"  # the task in standard input
 _TABLES = (".csv", ".html", ".xlsx")
 WRITTEN = "uk"  # the language of files where none is said
 LONGEST = 10_000  # characters of a word of the command line: longer is no name, number or path
@@ -442,6 +443,17 @@ def listed(name: str, metavar: str, source: helping.Source | None = None) -> Cal
     return click.option(name, metavar=metavar, multiple=True, callback=_given, shell_complete=complete)
 
 
+def piped(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
+    """Take the task from standard input where it is called `-`."""
+    names = value if isinstance(value, tuple) else (value,)
+    if ctx.resilient_parsing or STREAM not in names or os.path.exists(STREAM):
+        return value
+    from ..reader import task_of_stream
+
+    task = task_of_stream(sys.stdin.buffer, STREAM)
+    return tuple(task if one == STREAM else one for one in names) if isinstance(value, tuple) else task
+
+
 _named = helping.completing(helping.tasks, with_files=True)
 # the language, which `main` has already taken for messages
 of_language = click.option("--lang", type=Word(*LANGUAGES))
@@ -453,11 +465,10 @@ _about_task: tuple[Any, ...] = (
     click.option("--notation", shell_complete=helping.completing(helping.notations)),
     of_language,
 )
-of_task = _stacked(click.argument("task", shell_complete=_named), *_about_task)
-of_any_task = _stacked(click.argument("task", metavar="TASK", required=False, shell_complete=_named), *_about_task)
-of_tasks = _stacked(
-    click.argument("tasks", metavar="TASK...", nargs=-1, required=True, shell_complete=_named), *_about_task
-)
+_task: dict[str, Any] = {"shell_complete": _named, "callback": piped}
+of_task = _stacked(click.argument("task", **_task), *_about_task)
+of_any_task = _stacked(click.argument("task", metavar="TASK", required=False, **_task), *_about_task)
+of_tasks = _stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True, **_task), *_about_task)
 of_norm = _stacked(
     click.option("--norm", type=Word(*NORMS), default=NORMS[0], show_default=True),
     click.option("--lettering", type=Word(*LETTERINGS), default=LETTERINGS[0], show_default=True),

@@ -197,7 +197,7 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
     from ..marking.checks import check as ready
     from ..marking.reading import SUFFIXES
 
-    if task.lower().endswith(SUFFIXES) and os.path.isfile(task):
+    if isinstance(task, str) and task.lower().endswith(SUFFIXES) and os.path.isfile(task):
         raise InputError("check-no-task", file=quote(task, SHOWN))
     if options["moodle"] is not None:  # before any work
         check_outputs(options["moodle"], known=(".csv",))
