@@ -246,11 +246,8 @@ def drawing_of(case: Case) -> Drawn:
     error = case.error()
     if error is not None:
         raise error
-    try:
-        with lettered(case.lettering, case.language):
-            return case.kind.draw(case, case.words(), case.norm, paper)
-    except InputError as refusal:
-        raise case.explained(refusal) from None
+    with lettered(case.lettering, case.language):
+        return case.kind.draw(case, case.words(), case.norm, paper)
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
