@@ -426,6 +426,13 @@ def output(module: str, required: bool = False) -> Callable[[Function], Function
     )
 
 
+def paired(*names: str, metavar: str = "NAME=VALUE", source: helping.Source) -> Callable[[Function], Function]:
+    """Return an option for pairs NAME=VALUE, of which a shell completes the beginnings of a source."""
+    return click.option(
+        *names, metavar=metavar, multiple=True, callback=pairs, shell_complete=helping.completing(source)
+    )
+
+
 def _stacked(*options: Any) -> Callable[[Function], Function]:
     """Return what adds options to a command, in the order in which its help shows them."""
 
@@ -459,8 +466,8 @@ _named = helping.completing(helping.tasks, with_files=True)
 of_language = click.option("--lang", type=Word(*LANGUAGES))
 _about_task: tuple[Any, ...] = (
     click.option("-v", "--variant", shell_complete=helping.completing(helping.variants)),
-    click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, callback=pairs),
-    click.option("--scale", "scales", metavar="NAME=VALUE", multiple=True, callback=pairs),
+    paired("--set", "settings", source=helping.givens),
+    paired("--scale", "scales", source=helping.scales),
     listed("--only", "PLAN,...", helping.plans),
     click.option("--notation", shell_complete=helping.completing(helping.notations)),
     of_language,

@@ -101,6 +101,19 @@ def quantities(ctx: click.Context) -> Iterable[str]:
     return solve(_task(ctx))
 
 
+def givens(ctx: click.Context) -> Iterator[str]:
+    """Go through the givens of the task, each as it is set: numbers, words with what may be chosen."""
+    for name, given in _task(ctx).givens.items():
+        yield from (f"{name}={word}" for word in (given.choices or ("",)))
+
+
+def scales(ctx: click.Context) -> Iterable[str]:
+    """Return the scale factors of the task, as they are set."""
+    from ..solution import solve
+
+    return [f"{symbol}=" for symbol in solve(_task(ctx)).scales]
+
+
 def charts(ctx: click.Context) -> Iterable[str]:
     """Return the charts that the task can have."""
     from ..case import beside

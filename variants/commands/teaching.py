@@ -91,7 +91,7 @@ def _markers(files: tuple[Path, ...], tile: str | None, options: dict[str, Any])
 @console.of_task
 @console.listed("--quantities", "NAME,...", helping.quantities)
 @console.counted("--make")
-@click.option("--range", "ranges", metavar="NAME=RANGE", multiple=True, callback=console.pairs)
+@console.paired("--range", "ranges", metavar="NAME=RANGE", source=helping.givens)
 @console.counted("--seed")
 @click.option("--from", "table", metavar="FILE", shell_complete=helping.files)
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
