@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..drawing.words import Words
+    from ..plans.linkages.cycle import Cycle
     from ..plans.solved import Columned
     from ..scales.errors import PositionError
     from ..scales.series import Series
@@ -373,6 +374,12 @@ class Swept(Arrays):
     def warnings(self) -> tuple[InputError, ...]:
         """What a user of its drawing should know."""
         return ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def cycle(self) -> Cycle:
+            """The positions of a linkage; of anything else there are none, and an InputError says so."""
 
 
 def html_table(rows: Sequence[Sequence[str]]) -> str:

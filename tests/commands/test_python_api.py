@@ -562,3 +562,12 @@ def test_what_changes_nothing_on_a_chart_is_told_by_the_name_of_the_argument() -
 
     assert [str(one) for one in said] == ["tolerance changes nothing on charts of this kind: stability"]
     assert repr(said) == "(InputError('tolerance changes nothing on charts of this kind: stability'),)"
+
+
+@pytest.mark.parametrize("task", ["madi-cam", "madi-gear", "karpenko-hoist"])
+def test_only_a_linkage_has_positions_and_whatever_else_says_so(task: str) -> None:
+    assert sweep("nau-slider-crank").cycle.motions[0].travel.length == pytest.approx(0.05)
+
+    with pytest.raises(InputError) as refused:
+        _ = sweep(task).cycle
+    assert (refused.value.key, refused.value.data["text"]) == ("kind-without", "cycle")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,9 @@ from ..sheets import BLOCK
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import AnyTask
 
+if TYPE_CHECKING:
+    from ...plans.linkages.cycle import Cycle
+
 SUFFIXES = Swept.suffixes
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
@@ -36,6 +39,11 @@ class CourseSweep(Swept):
 
     course: Course
     positions: int | None
+
+    @property
+    def cycle(self) -> Cycle:
+        """What a linkage alone has: refused."""
+        raise InputError("kind-without", task=quote(self.task.id), text="cycle")
 
     @property
     def count(self) -> int:
