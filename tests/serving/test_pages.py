@@ -95,6 +95,24 @@ def test_pages_of_a_sheet_are_turned(client: TestClient) -> None:
     assert client.get(f"/task/{TASK}/page.svg?v=3&format=A3&page=99").status_code == 404
 
 
+@pytest.mark.parametrize(("lang", "called"), [("uk", "швидкості"), ("ru", "скорости"), ("en", "velocities")])
+def test_one_plan_alone_may_be_chosen_and_downloaded(lang: str, called: str, client: TestClient) -> None:
+    alone = kulman.sheet(TASK, "3", only="velocity", lang=lang)
+    at = f"/task/{TASK}?v=3&only=velocity&lang={lang}"
+
+    page = client.get(at).text
+
+    assert re.search(rf'<option[^>]*value="velocity"[^>]*selected[^>]*>{called}<', page)
+    assert client.get(at.replace("?", "/page.svg?")).text == alone.svg(1)
+    assert client.get(at.replace("?", "/sheet.svg?")).text == alone.svg(1)
+    assert "only=velocity" in re.findall(r'href="[^"]*/sheet\.pdf[^"]*"', page)[0]
+    answers = client.get(at.replace("?", "/form.csv?")).text
+    assert "V_B" in answers
+    assert "a_B" not in answers
+    assert client.get(at.replace("velocity", "velocity,acceleration")).text.count("velocity,acceleration") > 1
+    assert client.get(f"/task/{TASK}?v=3&only=nonsense&lang={lang}").status_code == 200  # told on the page
+
+
 def test_data_of_ones_own_go_on_to_all_files_and_to_another_variant(client: TestClient) -> None:
     given = {
         "v": "7",

@@ -24,6 +24,7 @@ from ...drawing.writers import slug
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
+from ...scales.packaged import packaged
 from ..batches.batch import batch, write_roster
 from ..case import Kind, Request, kind_of
 from ..charts.charts import chart
@@ -58,7 +59,8 @@ from .jobs import KEPT as KEEP
 OWN, FORMS = "task.toml", Path("forms")  # in the folder of the process
 _OURS = re.compile(rf"\b{FORMS}/([0-9]{{3,}})-[\w-]*(?:\.\w+)?")
 ZIP = ".zip"
-LETTERS = ("format", "notation")
+LETTERS = ("format", "notation", "only")
+OF_CYCLE = ("notation", "only")
 HOW = (*LETTERS, "norm")
 TITLED = "student", "group", "teacher", "department", "date"  # of the title page of a note
 POSITIONS = 12  # of the sheet of a cycle
@@ -80,7 +82,7 @@ class Asked:
     variant: str = ""
     of: str = ""
     settings: tuple[tuple[str, str], ...] = ()
-    how: tuple[tuple[str, str], ...] = ()  # format, norm, notation
+    how: tuple[tuple[str, str], ...] = ()  # format, norm, notation, plans
     block: tuple[tuple[str, str], ...] = ()
     language: str = "uk"
 
@@ -117,6 +119,7 @@ class Shown:
     fields: tuple[GivenField, ...]
     moves: bool
     read: bool  # whether its plans are read from photographs
+    plans: tuple[tuple[str, str], ...]  # names of its own, and what they are called
     pages: tuple[bytes, ...] = ()
     problem: KulmanError | None = None
     warnings: tuple[KulmanError, ...] = ()
@@ -208,8 +211,8 @@ SAVED: Mapping[str, Callable[[Asked, str], list[Path]]] = {
     "positions": lambda asked, name: _of(asked, sheet, *HOW, *BLOCK, positions=POSITIONS).save(name),
     "note": lambda asked, name: _of(asked, note, *LETTERS, *TITLED).save(name),
     "results": lambda asked, name: _of(asked, solve, *LETTERS).save(name),
-    "cycle": lambda asked, name: _of(asked, sweep, "notation").save(name),
-    "charts": lambda asked, name: _of(asked, chart, "notation").save(name),
+    "cycle": lambda asked, name: _of(asked, sweep, *OF_CYCLE).save(name),
+    "charts": lambda asked, name: _of(asked, chart, *OF_CYCLE).save(name),
     "form": lambda asked, name: [_check(asked).write_form(name)],
     "roster": lambda asked, name: [write_roster(asked.load(), name, asked.language)],
 }
@@ -273,7 +276,9 @@ def shown(advance: Advance, asked: Asked, answers: bool) -> Shown:
     )
     moves = type(kind_of(task.kind)).moving is not Kind.moving
     read, told = MODULES[task.kind] == "linkage", (task.title[language], task.note_in(language))
-    about = Shown(task.id, *told, (*task.variants,), variant, own, fields, moves, read)
+    called = packaged(f"{Kind.home}.drawing", "texts", language)
+    plans = tuple((plan, called.get(f"hand.plan.{plan}", plan)) for plan in task.plans)
+    about = Shown(task.id, *told, (*task.variants,), variant, own, fields, moves, read, plans)
     try:
         drawn = _sheet(asked) if answers else _handout(asked)
     except KulmanError as error:
@@ -402,7 +407,7 @@ class Handed:
         weights = None if self.rubric is None else self.rubric.put(len(self.sent), (".toml",))
         task = asked.load()
         usual = _request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
-        ready = check(task, **{**usual, "lang": asked.language}, roster=listed, rubric=weights, **self.how)
+        ready = check(task, **{**usual, "lang": asked.language, **self.how}, roster=listed, rubric=weights)
         names = list[str]()
         for n, one in enumerate(self.files, 1):
             try:

@@ -222,12 +222,15 @@ def _asking(door: Door, place: Place, shown: Shown) -> Html:
     variants = [(name, name) for name in shown.variants]
     formats = [("", said["task.smallest"]), *((size, size) for size in SIZES)]
     norms = [("gost", said["norm.gost"]), ("iso", said["norm.iso"])]
+    plans = {"": said["task.all"], **dict(shown.plans)}
+    plans = {**plans, place.get("only"): plans.get(place.get("only"), place.get("only"))}
     own = (_given(one, dict(shown.own)) for one in shown.fields)
     block = (field(said[f"block.{name}"], typed(name, place.get(name)), name) for name in BLOCK)
     return tag(
         "form",
         field(said["task.variant"], _chosen("v", variants, shown.variant), "v"),
         tag("input", type="hidden", name="of", value=shown.variant),
+        field(said["task.plans"], _chosen("only", [*plans.items()], place.get("only")), "only"),
         tag("input", type="hidden", name="lang", value=door.language) if door.chosen else None,
         tag("input", type="hidden", name="view", value="handout") if place.handout else None,
         tag("details", tag("summary", said["task.own"]), *own, open=bool(shown.own)),
