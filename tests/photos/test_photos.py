@@ -300,6 +300,31 @@ def test_a_page_that_is_not_handed_in_is_missing_as_empty_cells_of_a_form_are(on
     assert missing(replace(answers, plans=frozenset()), ready) == (set() if only is None else gone)
 
 
+@pytest.mark.parametrize(("handed", "asked"), [("velocity", None), ("velocity,acceleration", None), (None, "velocity")])
+def test_a_handout_for_other_plans_than_are_asked_for_is_found(
+    handed: str | None, asked: str | None, tmp_path: Path
+) -> None:
+    for number, page in enumerate(pages_of(handed, *("velocity", "acceleration")[: 1 + (handed or "").count(",")])):
+        (tmp_path / f"student-{number}.jpg").write_bytes(page)
+    ready = check(TASK, "0", only=asked, lang="en")
+    (answers,) = ready.read(str(tmp_path))
+
+    marked = ready.mark(answers).marked
+
+    assert {line.plan for line in marked.lines} == {*(asked or handed or "").split(",")}
+    assert marked.mark == 100.0
+
+
+def test_of_a_handout_from_other_data_that_is_told_not_that_nothing_is_drawn(tmp_path: Path) -> None:
+    (tmp_path / "student.jpg").write_bytes(pages_of("velocity", "velocity")[0])
+    ready = check(TASK, "0", scales={"mu_V": "0.2"}, lang="en")
+
+    with pytest.raises(InputError) as error:
+        ready.mark(*ready.read(str(tmp_path / "student.jpg")))
+
+    assert error.value.key == "photo-other"
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize("quality", [PHONE, SCANNER, MESSENGER])
 def test_a_plan_is_missing_where_it_begins_nothing_is_drawn_and_not_judged_where_it_is_faint(

@@ -43,7 +43,7 @@ INSET = 5.0  # mm; longer segments are read on their plan
 STRANGE = 0.25  # part of the answers that a task does not ask for, which with another task's name are for that
 TOLD_APART = 2  # mistakes that are told together
 READ = 1.0  # mm that reading a photograph may miss of a segment
-KEPT, BLANKS = 32, 4  # answer keys; handouts that were photographed
+KEPT, BLANKS = 32, 8  # answer keys; handouts that were photographed
 READ_KEPT = 400_000_000  # bytes of a class's photographs that have been read
 
 
@@ -337,6 +337,8 @@ class Desk:
             from ..photos.reading import directed
 
             sheets, on_drawing = self.photographed(answers, key)
+            if not sheets.pages:  # none could be read: why is told, not that nothing is drawn
+                raise sheets.notes[0]
             notes += sheets.notes
             on_drawing = surely(answers, key, sheets, on_drawing, rubric)
             gone = dict.fromkeys(sheets.bare(), "photo-bare")

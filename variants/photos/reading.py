@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -30,7 +31,7 @@ from ...plans.names import LEVER, role
 from ...scales.errors import LANGUAGES, InputError, KulmanError, Written
 from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
-from ..case import Case, Request
+from ..case import Case, Request, plans_wanted
 from ..marking.keyed import Keyed
 from ..marking.reading import Ends, Reply
 from ..marking.seen import Seen
@@ -113,6 +114,10 @@ class _Blank:
         """What the QR codes of its pages say."""
         bare = (replace(page, shapes=tuple(s for s in page.shapes if not _added(s))) for page in self.pages)
         return tuple(scan_code(self.case, number, page) for number, page in enumerate(bare, 1))
+
+    def made(self, code: Sequence[str]) -> bool:
+        """Return whether a page of it has this code."""
+        return ":".join(code) in self.codes
 
     @property
     def pages_with_plans(self) -> set[int]:
@@ -242,11 +247,14 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
     """
     name = keyed.solution.variant, *sorted(keyed.solution.case.settings.items())
 
-    def blank(language: str, paper: str) -> _Blank:
-        return kept.get((*name, language, paper), lambda: _blank_of(request, keyed, language, paper))
+    def blank(language: str, paper: str, only: tuple[str, ...] | None = None) -> _Blank:
+        asked = replace(request, only=only or request.only)
+        return kept.get((*name, language, paper, only), lambda: _blank_of(asked, keyed, language, paper))
 
     own = _of_ones_own(photos)
-    sheets = _own_sheets(photos, keyed) if own else _read_sheets(photos, _fitting(photos, request, blank))
+    codes = name, *(photo.code for photo in photos)
+    fitting = None if own else kept.get(codes, lambda: _fitting(photos, request, blank))
+    sheets = _own_sheets(photos, keyed) if fitting is None else _read_sheets(photos, fitting)
     found = _recognised(sheets, keyed)
     times = 1.0 if own else _print_scale(sheets, keyed, found)
     if times != 1.0:
@@ -321,11 +329,23 @@ def _on(places: NDArray[np.complex128], page: int) -> NDArray[np.bool_]:
     return np.asarray(np.floor(places.real / APART) == page)
 
 
-def _fitting(photos: Sequence[Photo], request: Request, blank: Callable[[str, str], _Blank]) -> _Blank:
-    """Return the handout that was photographed: its QR code tells how it was printed, else where its markers are."""
+def _fitting(photos: Sequence[Photo], request: Request, blank: Callable[..., _Blank]) -> _Blank:
+    """Return the handout that was photographed: its QR code tells how it was printed, else where its markers are.
+
+    Which plans it is for, where it is not for those that are asked for, is found out: all, or some that follow.
+    """
     told = next((photo.code for photo in photos if photo.code), ())
     if told and told[5].lower() in LANGUAGES and told[6] in FORMATS:
-        return blank(told[5].lower(), told[6])
+        how, plans = (told[5].lower(), told[6]), plans_wanted(None, request.task)
+        asked = blank(*how)
+        if asked.made(told):
+            return asked
+        for n in (len(plans), *range(1, len(plans))):
+            for run in (plans[at : at + n] for at in range(len(plans) - n + 1)):
+                with suppress(KulmanError):  # a scale factor is asked for that these plans do not have
+                    if run != asked.case.plans and (other := blank(*how, run)).made(told):
+                        return other
+        return asked
     paper = format_named(request.format or PAPER).name
     own = blank(request.language, paper)
     if all(_fits(photo, own) for photo in photos):
