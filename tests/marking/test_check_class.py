@@ -520,6 +520,41 @@ def test_reports_have_the_numbers_of_the_roster(tmp_path: Path, run: Run) -> Non
     assert texts == ["002-Student-2", "005-Student-5", "006-Student-5", "007-Ann"]
 
 
+def test_a_form_in_which_nobody_is_named_is_of_the_student_whose_name_its_file_has(tmp_path: Path, run: Run) -> None:
+    """A folder of such forms was of strangers, and all of the roster had handed in nothing."""
+    people = [
+        ["Коваль Ольга", "А", "3"],
+        ["Коваль Ольга", "Б", "3"],
+        ["Гук Степан Іванович", "А", "3"],
+        ["Лис Ян", "А", "3"],
+    ]
+    roster = write(tmp_path, [["student", "group", "variant"], *people], name="roster")
+    works = tmp_path / "works"
+    works.mkdir()
+    files = [
+        ("Коваль_Ольга", "", "Б"),
+        ("Гук Степан_4711_assignsubmission_file_answers", "", ""),
+        ("Лис Ян", "Гук Марко", ""),
+        ("answers", "", ""),
+    ]
+    for number, (name, student, group) in enumerate(files):
+        head = [["student", student], ["group", group], [], ["quantity", "value, m/s"]]
+        write(works, [*head, ["V_B", f"5,6{number}"]], (".csv", ".xlsx")[number % 2], name)
+
+    _, out, _ = run("check", TASK, works, "--roster", roster, "--lang", "en")
+
+    lines = out.splitlines()
+    assert [line.partition("  ")[0] for line in lines if "nothing handed in" in line] == [
+        f"Коваль Ольга ({roster}: row 2)",
+        "Лис Ян",
+    ]
+    assert [line.split("  ")[0] for line in lines if "is not in the roster" in line] == [
+        f"{works / 'answers.xlsx'}",
+        "Гук Марко",
+    ]
+    assert "marked: 2" in out
+
+
 @pytest.mark.parametrize(("again", "grades"), [("5,62", ["N1", "N2"]), ("5,1", ["N2"])])
 def test_who_hands_in_twice_or_is_no_one_of_the_roster_gets_no_second_grade(
     tmp_path: Path, run: Run, again: str, grades: list[str]

@@ -151,20 +151,24 @@ class Check(Terms):
     def _named(self, answers: Answers, sheets: Mapping[str, Sequence[Entry]]) -> Answers:
         """Return answers with whose drawing it is: the name of the file is that of a student, or of a record book.
 
-        So it is of a file that cannot be read.
+        So it is of a file that cannot be read, of a form in which nobody is named; Moodle writes more behind a name.
 
         In a stack the id of the sheet tells, where one student alone has it.
         """
-        if self.roster is None or (answers.drawn is None and not answers.photos and not answers.unread):
+        form = answers.drawn is None and not answers.photos and not answers.unread
+        alone = Path(answers.source).suffix.lower() in TABLES  # no row of a class
+        if self.roster is None or (form and (replace(answers.who, group="") != Who() or not alone)):
             return answers
         same = sheets.get(answers.about.get("sheet", "").upper(), ())
         stem = Path(answers.source).stem
-        ways = stem, re.sub(r"^[0-9]{3}-", "", stem), stem_of(answers.source)
+        of_moodle = re.split(r"_[0-9]+_assignsubmission_", stem)[0]
+        ways = stem, of_moodle, re.sub(r"^[0-9]{3}-", "", stem), stem_of(answers.source)
         names = [*(" ".join(re.split(r"[\s_-]+", name)).strip() for name in ways), *ways]
-        known = (self.roster.find(Who(**{key: name})) for name in names for key in ("student", "book", "number"))
+        group = answers.who.group
+        known = (self.roster.find(Who(group=group, **{k: n})) for n in names for k in ("student", "book", "number"))
         entry = same[0] if len(same) == 1 else next(filter(None, known), None)
         if entry is None:
-            return answers if answers.unread else replace(answers, who=Who(student=names[0]))
+            return answers if form or answers.unread else replace(answers, who=Who(student=names[0]))
         return replace(answers, who=entry.who)
 
     def absent(self, answers: Iterable[Answers]) -> list[Entry]:
