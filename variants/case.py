@@ -18,7 +18,7 @@ from ..drawing.words import Given, Words
 from ..plans.names import role, scale_factor
 from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
-from ..scales.errors import LANGUAGES, InputError, PositionError, Written
+from ..scales.errors import LANGUAGES, InputError, KulmanError, PositionError, Written, as_one
 from ..scales.givens import Bound, Described, Givens
 from ..scales.names import by_name, named, names_of, of_kind, unknown
 from ..scales.numbers import quote
@@ -153,6 +153,10 @@ class Case(Request):
         if error is None or not beyond:
             return error
         return PositionError("faults", status_word=error.status_word, faults=[*beyond, error])
+
+    def explained(self, refusal: InputError) -> KulmanError:
+        """Return why nothing is drawn, after the numbers that were set and are far from those of the task."""
+        return as_one([*self._far(), refusal])
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
@@ -481,10 +485,12 @@ def far(task: Task, values: Mapping[str, float | str]) -> Iterator[InputError]:
     """Go through values that are hundreds of times more or less than any variant has: metres for millimetres."""
     for name, value in values.items():
         given, row = task.givens[name], (variant.values.get(name) for variant in task.variants.values())
-        if isinstance(value, str) or given.unit is None or given.bound is Bound.FREE:
+        if isinstance(value, str) or given.unit is None:
             continue
         sizes = [size for size in row if not isinstance(size, str) and size]
-        if sizes and value and not min(sizes) / FAR < value < max(sizes) * FAR:
+        # a coordinate or a force of either sense may be as small as it likes
+        least = 0.0 if given.bound is Bound.FREE else min(map(abs, sizes), default=0.0) / FAR
+        if sizes and value and not least < abs(value) < max(map(abs, sizes)) * FAR:
             own = {"text": value, "least": min(sizes), "most": max(sizes)}
             said = {key: f"{given.unit.from_si(size):.6g}" for key, size in own.items()}
             yield LocatedError(name, InputError("given-far", unit=UnitName(given.unit.name), **said))

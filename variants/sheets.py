@@ -246,8 +246,11 @@ def drawing_of(case: Case) -> Drawn:
     error = case.error()
     if error is not None:
         raise error
-    with lettered(case.lettering, case.language):
-        return case.kind.draw(case, case.words(), case.norm, paper)
+    try:
+        with lettered(case.lettering, case.language):
+            return case.kind.draw(case, case.words(), case.norm, paper)
+    except InputError as refusal:
+        raise case.explained(refusal) from None
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:

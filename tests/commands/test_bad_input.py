@@ -256,6 +256,15 @@ def test_metres_for_millimetres_are_told_also_where_nothing_can_be_assembled_of_
     assert "cannot be assembled in this position" in err
 
 
+def test_metres_for_millimetres_are_told_also_where_no_format_has_room_for_the_plan(folder: Path, run: Run) -> None:
+    status, out, err = run("sheet", TASK, "-v", "3", "--set", "l_OA=0.04", "-o", "sheet.svg", "--lang", "en")
+
+    assert (status, out) == (2, "")
+    assert err.startswith("l_OA: 0.04 mm is far from what the variants of the task have, from 25 to 50 mm")
+    assert "the plan fits on no format" in err
+    assert not [*folder.iterdir()]
+
+
 def test_answers_without_their_task_and_a_task_file_without_its_suffix_are_told(
     folder: Path, refusal: Callable[..., str]
 ) -> None:

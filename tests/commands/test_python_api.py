@@ -545,6 +545,16 @@ def test_what_was_set_far_from_all_variants_is_warned_of() -> None:
     assert solve(TASK, "3", set={"l_OA": "4 cm", "phi": 1.3}, only="position").warnings == ()
 
 
+def test_newtons_for_kilonewtons_are_warned_of_and_a_small_force_is_not() -> None:
+    """A force may have either sign, and 2000 kN were taken without a word."""
+    (warning,) = solve(TASK, "3", set={"F_3": 2000}).warnings
+
+    assert "F_3: 2000 kN is far from what the variants of the task have, from 1.5 to 6 kN" in str(warning)
+    assert len(solve(TASK, "3", set={"F_3": -2000}).warnings) == 1
+    assert solve(TASK, "3", set={"F_3": 0.001}).warnings == ()
+    assert solve(TASK, "3", set={"F_3": "2000 N"}).warnings == ()
+
+
 def test_a_report_has_its_mark_and_is_text_or_files(tmp_path: Path) -> None:
     report = kulman.check(TASK, "3", lang="en").mark({"V_B": 5.62, "omega_2": "99 rad/s"})
 
