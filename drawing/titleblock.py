@@ -218,7 +218,8 @@ def text_frame(sheet: Format, stamp: Stamp, form: str) -> tuple[Shape, ...]:
     if not form:
         return (frame,)
     parts = _form_2(stamp) if form == "2" else _form_2a(replace(stamp, sheet=0, code=""))
-    return frame, _at_corner(parts, f"form-{form}", area[0], area[1])
+    x0 = block_box(sheet, first=False)[0]  # either form is as wide
+    return frame, _at_corner(parts, f"form-{form}", x0, area[1])
 
 
 # From the bottom left corner of the block, mm: 180 x 36 in three rows of 12.

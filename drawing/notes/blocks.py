@@ -19,6 +19,7 @@ from ..titleblock import Stamp, text_frame
 from ..view import View
 
 FOLDED, FOLDED_ROOM = "A3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
+FOLDED_SIDES = 22.5, 7.5  # mm left and right of that room on a sheet with a frame
 LEGIBLE = 0.5  # the part of its size below which the letters of a figure are too small
 # mm of its height, so that it stands near its text, and the part of its size to which it is reduced for that at most
 NEAR, NEARLY = 130.0, 0.7
@@ -158,6 +159,11 @@ class Document:
     blocks: tuple[Block, ...]
     language: str
     profile: Profile = field(default_factory=Profile)
+
+    @property
+    def folds(self) -> bool:
+        """Whether figures stand on larger sheets at the end."""
+        return any(isinstance(block, Figure) and block.folded for block in self.blocks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -323,13 +329,26 @@ def figure_svg(figure: Figure, language: str) -> bytes:
 
 
 def framed_pages(document: Document) -> dict[str, Page]:
-    """Return frames of pages of a text by their forms: of the first one bare, then with title blocks `2` and `2a`."""
-    page, sheet = document.title, FORMATS["A4"]
+    """Return frames of pages of a text by their forms: of the first one bare, then with title blocks `2` and `2a`.
+
+    Larger sheets at the end have the frame `folded`.
+    """
+    page, sheets = document.title, dict.fromkeys(("", "2", "2a"), FORMATS["A4"])
     same = ("title", "designation", "group", "student", "teacher", "date", "document_type")
     named = {name: getattr(page, name) for name in same}
     stamp = Stamp(**named, organisation=page.department, language=document.language)
-    forms = {form: text_frame(sheet, stamp, form) for form in ("", "2", "2a")}
-    return {form: Page(sheet.width, sheet.height, forms[form], page.title, document.language) for form in forms}
+    if document.folds:
+        sheets["folded"] = FORMATS[f"{FOLDED}-portrait"]
+    return {
+        form: Page(
+            sheet.width,
+            sheet.height,
+            text_frame(sheet, stamp, "2a" if form == "folded" else form),
+            page.title,
+            document.language,
+        )
+        for form, sheet in sheets.items()
+    }
 
 
 def said_under(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ What is written in WordprocessingML is put into a document of the library with s
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from io import BytesIO
@@ -17,6 +17,7 @@ from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
 from ..font import SCREEN, SLANTED, UPRIGHT, font
 from ..formats import FORMATS
+from ..page import Page
 from ..pdf import write_png
 from ..svg import svg_text
 from ..tables import cells as cells_of
@@ -50,6 +51,7 @@ NUMBERED = {
     "": (),
     "2": (("PAGE", (170.0, 272.0, 15.0, 5.0)), ("NUMPAGES", (185.0, 272.0, 20.0, 5.0))),
     "2a": (("PAGE", (195.0, 284.0, 10.0, 8.0)),),
+    "folded": (("PAGE", (282.0, 407.0, 10.0, 8.0)),),
 }
 PERCENT = 5000  # fiftieths of a per cent
 OF_NUMBER = 14.0  # mm at the end of a line for the number of an equation
@@ -93,14 +95,18 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
     drawings = drawings_of(document.blocks, document.language) if drawings is None else drawings
     pictures = [_picture(word.part, drawing, number) for number, drawing in enumerate(drawings, 1)]
     _append(word, "".join(_title(document)))
-    if document.profile.framed:
-        _frame(word, document)
+    frames = note.framed_pages(document) if document.profile.framed else {}
+    if frames:
+        _frame(word, frames)
     _append(word, f"{''.join(_contents(document))}{blocks_in_word(document, pictures)}")
-    if any(isinstance(block, Figure) and block.folded for block in document.blocks):
+    if document.folds:
         section, sheet = word.add_section(), FORMATS[f"{note.FOLDED}-portrait"]  # for what is too large for a page
         section.page_width, section.page_height = docx.shared.Mm(sheet.width), docx.shared.Mm(sheet.height)
         section.different_first_page_header_footer = False  # numbers of pages go on
         section.header.is_linked_to_previous = False  # no frame of a smaller page
+        if frames:
+            section.left_margin, section.right_margin = map(docx.shared.Mm, note.FOLDED_SIDES)
+            _framed(section.header, frames, "folded")
         _append(word, _folded_in_word(document, pictures))
     stream = BytesIO()
     word.save(stream)
@@ -181,7 +187,7 @@ def _field(code: str) -> str:
     return f'<w:fldSimple w:instr=" {code} ">{_words("2")}</w:fldSimple>'
 
 
-def _frame(word: Word, document: Document) -> None:
+def _frame(word: Word, frames: Mapping[str, Page]) -> None:
     """Draw the frame of each page behind its text: of the title page, with form 2 of the contents, then form 2a.
 
     Numbers stand in cells of the title blocks; what forms take is left free by a footer.
@@ -190,18 +196,23 @@ def _frame(word: Word, document: Document) -> None:
     first, own = word.sections
     first.different_first_page_header_footer, own.different_first_page_header_footer = False, True
     headers = {"": first.header, "2": own.first_page_header, "2a": own.header}
-    for number, (form, page) in enumerate(note.framed_pages(document).items(), FRAMES):
-        header, png = headers[form], BytesIO()
+    for form, header in headers.items():
         header.is_linked_to_previous = False
-        write_png([page], png, DPI)
-        svg = _outlined(svg_text(page, with_font=False).encode("utf-8"))
-        picture = _picture(header.part, Drawing(png.getvalue(), svg), number)
-        cells = "".join(_paragraph("Footer", _field(code), _placed(*box)) for code, box in NUMBERED[form])
-        size = round(page.width * EMU), round(page.height * EMU)
-        header.part.element[:] = _parsed(cells + _paragraph("Footer", _behind(picture, number, size)))
+        _framed(header, frames, form)
     own.first_page_footer.is_linked_to_previous = False
     high = f'<w:spacing w:before="0" w:after="0" w:line="{round(HIGH_2 * TWIPS)}" w:lineRule="exact"/>'
     own.first_page_footer.part.element[:] = _parsed(_paragraph("Footer", "", high))
+
+
+def _framed(header: Any, frames: Mapping[str, Page], form: str) -> None:
+    """Put the frame of a form into the header of its pages."""
+    page, number, png = frames[form], FRAMES + [*frames].index(form), BytesIO()
+    write_png([page], png, DPI)
+    svg = _outlined(svg_text(page, with_font=False).encode("utf-8"))
+    picture = _picture(header.part, Drawing(png.getvalue(), svg), number)
+    cells = "".join(_paragraph("Footer", _field(code), _placed(*box)) for code, box in NUMBERED[form])
+    size = round(page.width * EMU), round(page.height * EMU)
+    header.part.element[:] = _parsed(cells + _paragraph("Footer", _behind(picture, number, size)))
 
 
 def _placed(x: float, y: float, wide: float, high: float) -> str:

@@ -56,12 +56,19 @@ FRAMED = """numbering: none, background: context if counter(page).get().first() 
   place(bottom + left, dx: 170mm, dy: -20mm, box(width: 15mm, height: 5mm, align(center + horizon, sheet[2])))
   place(bottom + left, dx: 185mm, dy: -20mm,
     box(width: 20mm, height: 5mm, align(center + horizon, sheet(str(counter(page).final().first())))))
-} else {
-  image("form-2a.svg")
-  place(bottom + left, dx: 195mm, dy: -5mm,
+} else { form("form-2a.svg") }"""
+SHEET = """\
+#let sheet(number) = text(font: "Kulman Drafting", size: 10pt, number)
+#let form(file) = {
+  image(file)
+  place(bottom + right, dx: -5mm, dy: -5mm,
     box(width: 10mm, height: 8mm, align(center + horizon, sheet(counter(page).display("1")))))
 }"""
-SHEET = '#let sheet(number) = text(font: "Kulman Drafting", size: 10pt, number)'
+PLAINLY = "#let folded = (:)"
+FRAMED_TOO = (  # larger sheets at the end
+    f"#let folded = (margin: (left: {note.FOLDED_SIDES[0]}mm, right: {note.FOLDED_SIDES[1]}mm), "
+    'background: context form("form-folded.svg"))'
+)
 RESERVED = 22.0  # mm by which form 2 is higher than form 2a
 GAP = 30.0  # mm at the end of a page that stay empty
 SMALLER = 0.85  # of its size, to which a figure may shrink to have room before the end of a page
@@ -149,16 +156,13 @@ class Body:
     def source(self, title: str, language: str, before: str) -> dict[str, Any]:
         """Return the files of a note, with what stands before the body."""
         looks = self.profile
-        named = {
-            "title": _quoted(title),
-            "lang": _quoted(language),
-            "page": FRAMED if looks.framed and before else NUMBERED,
-        }
+        framed = looks.framed and before
+        named = {"title": _quoted(title), "lang": _quoted(language), "page": FRAMED if framed else NUMBERED}
         sizes = {name: getattr(looks, name) for name in ("left", "right", "top", "bottom", "size", "leading")}
         preamble = PREAMBLE.format(
             **named, **sizes, spacing=looks.leading + 0.1, heading=looks.size + 1.0, equation=looks.leading
         )
-        preamble = f"{SHEET}\n{preamble}"
+        preamble = f"{SHEET}\n{FRAMED_TOO if framed else PLAINLY}\n{preamble}"
         return {"main.typ": "\n".join((preamble, before, self.text)).encode("utf-8"), **self.figures}
 
     def marks(self, language: str) -> list[tuple[int, int, float]]:
@@ -199,7 +203,7 @@ def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan, profile
     for figure, number in note.numbered(blocks):
         if isinstance(figure, Figure) and figure.folded:  # on its sheet, with its number
             text = _figure(figure, said, number, -1, f'numbering: _ => "{number}", ')
-            texts.append(f'#page(paper: "{note.FOLDED.lower()}")[{text}]\n')
+            texts.append(f'#page(paper: "{note.FOLDED.lower()}", ..folded)[{text}]\n')
     return "\n".join(texts)
 
 

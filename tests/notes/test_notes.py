@@ -18,6 +18,7 @@ import pytest
 from kulman import note, sheet, solve
 from kulman.drawing.notes.blocks import (
     PAPER,
+    PROFILES,
     Block,
     Document,
     Equations,
@@ -544,13 +545,37 @@ def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() 
     body = Body.of((*figures, Heading("End")), "en")
 
     assert body.figures.keys() == {"1.svg", "2.svg", "3.svg"}
-    shown, folded = body.text.split("= ")[0], body.text.split('#page(paper: "a3")')[1]
+    shown, folded = body.text.split("= ")[0], body.text.split('#page(paper: "a3", ..folded)')[1]
     assert [name in shown for name in ('"1.svg"', '"2.svg"', '"3.svg"')] == [True, False, True]
     assert "Figure 2 stands on a sheet A3" in shown
     assert "counter(figure.where(kind: image)).step()" in shown  # so that the next one is the third
     assert 'image("2.svg", width: 204.0000mm, height: 340.0000mm)' in folded
     assert 'numbering: _ => "2"' in folded
     assert "reduced to 68 %" in folded
+
+
+def test_a_larger_sheet_at_the_end_of_a_framed_note_has_a_frame_of_its_size_with_its_number() -> None:
+    """The frame of a smaller page lay in the middle of it, across the figure."""
+    view = View("plan", (Line(0j, complex(300.0, 500.0)),), (0.0, 0.0, 300.0, 500.0))
+    blocks = (Heading("Plan"), Figure(view, "Plan", ()))
+    written = replace(few_words(), blocks=blocks, profile=PROFILES["dstu3008"])
+    framed = {"left": 20.0, "right": 292.0, "low": 5.0, "high": 415.0}
+
+    *_, last = pdf = pypdfium2.PdfDocument(pdf_bytes(written))
+    boxes = [[part * 25.4 / 72 for part in thing.get_bounds()] for thing in last.get_objects(filter=[PATH])]
+    left, low, right, high = (
+        pick(sides) for pick, sides in zip((min, min, max, max), zip(*boxes, strict=True), strict=True)
+    )
+    page = last.get_textpage()
+    number = [page.get_charbox(k) for k in range(page.count_chars()) if page.get_text_range(k, 1) == str(len(pdf))]
+    section = docx.Document(BytesIO(docx_bytes(written))).sections[-1]
+    header = section.header.part.blob.decode()
+
+    assert {"left": left, "right": right, "low": low, "high": high} == pytest.approx(framed, abs=0.6)
+    assert any(282.0 < x * 25.4 / 72 < 292.0 and 5.0 < y * 25.4 / 72 < 13.0 for x, y, *_ in number)
+    assert f'cx="{297 * 36000}" cy="{420 * 36000}"' in header
+    assert re.findall(r' w:x="(\d+)"|instr=" (\w+) "', header) == [("15987", ""), ("", "PAGE")]
+    assert section.page_width.mm - section.left_margin.mm - section.right_margin.mm == pytest.approx(267.0, abs=0.1)
 
 
 def test_a_figure_alone_is_a_picture(tmp_path: Path, run: Run) -> None:
