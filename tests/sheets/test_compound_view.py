@@ -13,6 +13,7 @@ from kulman.plans.linkages.chain import hinged
 from kulman.plans.linkages.compound import COMPOUND, Coupler
 from kulman.scales.errors import InputError
 from kulman.tests.sheets.judge import overlaps, thin_faults
+from kulman.tests.support.printed_numbers import table
 from kulman.tests.support.readback import Sheet, View, angle, parallel, read, read_back
 from kulman.variants.solution import Solution
 
@@ -182,3 +183,12 @@ def test_smaller_format_takes_coarser_scales_and_a_mechanism_without_couplers_is
     with pytest.raises(InputError) as raised:
         sheet("scheme-19-scotch-yoke", only="compound")
     assert raised.value.key == "no-coupler"
+
+
+@pytest.mark.parametrize("task", [*TASKS[:2], *(pytest.param(MORE[k], marks=pytest.mark.soak) for k in (1, 3))])
+def test_every_vector_of_compound_motion_has_its_segment_in_the_table(task: str) -> None:
+    rows = [row for v in drawn(task).views if v.name.startswith("results_compound") for row in table(v)[1:]]
+    vectors = [row for row in rows if row[0][0] in "vVa"]
+
+    assert vectors != []
+    assert [row for row in vectors if row[1] == "–"] == []

@@ -43,7 +43,8 @@ Lines = list[tuple[str, ...]]
 DIRECTIONS = ("direction", "turn", "normal", "incline", "decline")  # verbs that make them
 PLANS = ("velocity", "acceleration")
 TOLD = ["circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"]
-TOLD += ["transport_speed", "transport_normal", "transport_tangential"]
+TRANSPORT = ("transport_speed", "transport_normal", "transport_tangential")  # of a rate and a distance
+TOLD += TRANSPORT
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 BEFORE_MEETING = ("normal_part", "coriolis")
 RATES = ("omega", "epsilon")
@@ -249,7 +250,12 @@ def _result(scene: Scene, step: Step) -> str:
         lines = turning_alike(scene, step)
     else:
         lines = [line for tell in FURTHER for line in tell(scene, step)]
-    found = re.search(r" = −?(\d+(?:[.,]\d+)?)[^=]*$", " ".join(next(reversed(lines), ())))
+    return _last_number(next(reversed(lines), ()))
+
+
+def _last_number(line: Sequence[str]) -> str:
+    """Return what an equation gives, without its sign; nothing where there is none."""
+    found = re.search(r" = −?(\d+(?:[.,]\d+)?)[^=]*$", " ".join(line))
     return found[1] if found is not None else ""
 
 
@@ -322,13 +328,27 @@ def _factor_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, float]:
 
 
 def fit_for(scene: Scene, name: str) -> Fits | None:
-    """Return whether a segment on its plan can show a number of a vector; None if it is on no plan."""
+    """Return whether a segment on its plan can show a number of a vector, or of those made by a rate; else None."""
     item = scene.quantities.get(role(name).shown)
     plan = "" if item is None or scene.words.ruler else _shown_on(scene, item)
     if item is None or plan not in scene.scales:
-        return None
+        return None if scene.words.ruler else _fit_of_users(scene, name)
     mu, value = _factor_on(scene, item, plan)[1], value_shown(scene, item)
     return lambda text, readable: bool(laid_off(scene.words, value, mu, text, readable))
+
+
+def _fit_of_users(scene: Scene, name: str) -> Fits | None:
+    """Return whether a rate gives to the vectors that it makes of distances numbers that their segments show."""
+    steps = (step for step in scene.reading.users(name) if step.law in TRANSPORT and name == step.operands[0])
+    found = [(step, fit) for step in steps if (fit := fit_for(scene, step.name)) is not None]
+
+    def shows(step: Step, fit: Fits, text: str, readable: bool) -> bool:
+        def told(scene: Scene, one: str) -> Product:
+            return Product((Factor("", scene.values[name], told=text),)) if one == name else operand(scene, one)
+
+        return fit(_last_number(size_by_law(scene, "", step, unit_of(step.name), told)), readable)
+
+    return (lambda *printed: all(shows(*one, *printed) for one in found)) if found else None
 
 
 def _is_laid(scene: Scene, name: str) -> bool:
