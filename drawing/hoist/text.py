@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from ...plans.hoist.forces import STRENGTH, strength
+from ...plans.hoist.forces import ROPE_1, STRENGTH, strength
 from ...plans.hoist.hoist import DRAWN
 from ...plans.hoist.model import CIRCLE, section_of
 from ...plans.hoist.solve import SCALED, unit_of
@@ -49,7 +49,7 @@ def results_table(scene: HoistScene) -> View:
     words, solved = scene.words, scene.solved
     cells = []
     for name, quantity in solved.quantities.items():
-        if section_of(name) == DRAWN or name in SCALED:
+        if section_of(name) == DRAWN or name in SCALED or (name == "F_12_min" and _rises(scene)):
             continue
         usual = USUAL.get(unit_of(name), unit_of(name))
         value = words["table.calculated"]
@@ -68,12 +68,19 @@ def checks_table(scene: HoistScene) -> View:
     words = scene.words
     rows = [_head(words, "check", "condition", "value", "verdict")]
     for check in scene.solved.forces.checks:
-        condition = f"{words.symbol(check.quantity)} {check.sign} {words.short(check.limit)}"
+        rises = check.name == ROPE_1 and _rises(scene)
+        condition = f"{words.symbol('F_12_t1' if rises else check.quantity)} {check.sign} {words.short(check.limit)}"
         unit = f" {words.unit(check.unit)}" if check.unit != "1" else ""
         would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
         value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
-        rows.append([words[f"hoist.{check.name}"], condition, value, words["said.ok" if check.ok else "said.fails"]])
+        name = f"hoist.{check.name}{'_rises' if rises else ''}"
+        rows.append([words[name], condition, value, words["said.ok" if check.ok else "said.fails"]])
     return table("checks", words["heading.hoist_checks"], rows, scene.style)
+
+
+def _rises(scene: HoistScene) -> bool:
+    """Whether the rope's force only rises from 0 before the lift-off: then it has no least value after its first."""
+    return scene.size("F_12_min") == scene.size("F_12_t1") >= 0.0
 
 
 def _head(words: Words, *columns: str) -> list[str]:
@@ -270,8 +277,8 @@ def _conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
     greatest = texts[f"hoist.conclusion.greatest_{'after' if after else 'before'}"]
     yield greatest.format(force=force, P_st=scene.stated("P_st"), factor=factor, when=when)
     if scene.solved.forces.motion is None:
-        least = {name: scene.stated(name) for name in ("F_12_min", "P_12_min")}
-        yield texts["hoist.conclusion.valid"].format(**least)
+        first = scene.stated("F_12_t1" if _rises(scene) else "F_12_min")
+        yield texts["hoist.conclusion.valid"].format(F_12_min=first, P_12_min=scene.stated("P_12_min"))
     else:
         wrong = (check.name for check in scene.solved.forces.checks if not check.ok)
         yield from (texts[f"hoist.conclusion.{name}"] for name in wrong if name != STRENGTH)
