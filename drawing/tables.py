@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from .formats import Style
 from .shapes import Anchor, Group, Line, Pen, Shape, Text
-from .text import Box, lay_out
+from .text import Box, lay_out, symbol
 from .view import View, heading_shapes
 from .words import Given, Words
 
@@ -122,7 +122,7 @@ def givens_view(
         if isinstance(given.value, str):
             rows.append([*words.choice(name, given.value), ""])
         else:
-            rows.append([words.symbol(name), _number(words, given.value), words.unit(given.unit)])
+            rows.append([symbol(words.symbol(name)), _number(words, given.value), words.unit(given.unit)])
     rows += map(list, more)
     if called is None:
         return table("givens", words["heading.givens"], rows, style)

@@ -127,6 +127,16 @@ def plain(markup: str) -> str:
     return _ESCAPE.sub(r"\1", markup)
 
 
+def symbol(markup: str) -> str:
+    """Return markup of letters that are a symbol though a unit or a word is spelled so, `m`, `s`, `OA`: with no script.
+
+    >>> symbol("m"), symbol("a"), symbol("V_{A}"), symbol("II")
+    ('m_{}', 'a', 'V_{A}', 'II')
+    """
+    known = not re.fullmatch(rf"[A-Z]{{2}}|{_UNIT}", markup) or _WORDS.search(f"<{markup}>")
+    return markup if known else f"{markup}_{{}}"
+
+
 class Ruling(NamedTuple):
     """A group under a vector bar (`bar`), or over one line or two (`u`, `uu`)."""
 
@@ -400,7 +410,7 @@ class _Pen:
             told = told_apart(pieces, self.latin_units)
             wide, high, low = self.line(told, x + aside, y + shift, script_of(base), base, leans)
             width, top, bottom = max(width, aside + wide), max(top, high), min(bottom, low)
-        return width + BEHIND * height, top, bottom
+        return width + BEHIND * height * (width > 0.0), top, bottom
 
 
 @lru_cache

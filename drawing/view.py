@@ -33,7 +33,7 @@ from .shapes import (
     sides_of,
 )
 from .spots import Obstacles, Request, first_clear, shelf
-from .text import Box, lay_out
+from .text import Box, lay_out, symbol
 
 WIDE = "circle"  # the role of a circle that goes round other things
 ROUND = 48  # pieces of it, for the letters that keep clear of it
@@ -206,7 +206,7 @@ class Canvas:
         said elsewhere. Where another letter with the same text is left out, too, the notes have the `bare` one. What it
         begins with may be all of it in an earlier stage: the `first` markup, and that stage.
         """
-        height = height or self.style.label
+        height, markup = height or self.style.label, symbol(markup)
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
         wide, high = layout.size

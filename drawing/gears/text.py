@@ -18,6 +18,7 @@ from ..handouts import Shown as Begun
 from ..notes.blocks import Story
 from ..printed import DEGREES, Input, Shown, Symbol, worked
 from ..tables import table, text_block
+from ..text import symbol
 from ..view import View
 from ..words import indexed
 from .action_view import theta_said
@@ -56,9 +57,11 @@ def data_table(scene: GearScene) -> View:
     """Return the data of the pair, and below them those of its wheels side by side."""
     words = scene.words
     rows: list[list[str | None]] = [[words["table.quantity"], words["table.symbol"], words["table.value"], None]]
-    rows += ([_named(scene, name), words.symbol(name), _number(scene, name), None] for name in PAIR)
+    rows += ([_named(scene, name), symbol(words.symbol(name)), _number(scene, name), None] for name in PAIR)
     rows.append(["", None, words["gear.pinion"], words["gear.wheel"]])
-    rows += ([_named(scene, n), words.symbol(n), *(_number(scene, _of(n, i)) for i in WHEELS)] for n in OF_WHEELS)
+    rows += (
+        [_named(scene, n), symbol(words.symbol(n)), *(_number(scene, _of(n, i)) for i in WHEELS)] for n in OF_WHEELS
+    )
     return table("data", words["heading.gear_data"], rows, scene.style)
 
 

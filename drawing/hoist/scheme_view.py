@@ -15,7 +15,7 @@ from ..figure import Figure, stages
 from ..page import Layer
 from ..shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import COILS, HALF_TURN, coils, fixed_pivot, hatching, revolute, unit
-from ..text import lay_out
+from ..text import lay_out, symbol
 from ..view import Canvas, View
 from .scene import HoistScene
 from .text import formula
@@ -146,7 +146,7 @@ def _model_view(scene: HoistScene) -> View:
     box = tuple(complex(x, y) for x, y in ((-half, SPRING), (half, SPRING), (half, top.imag), (-half, top.imag)))
     canvas.add(Group((Polyline(box, Pen.MAIN, closed=True, fill="white"),), "link", "m"), Line(end - 9.0, end + 9.0))
     h = scene.style.label
-    canvas.add(Text(0.5 * (bottom + top) - 0.35j * h, "m", h, "middle", role="label"))
+    canvas.add(Text(0.5 * (bottom + top) - 0.35j * h, symbol("m"), h, "middle", role="label"))
     for name, at in (("C_01", 0.28 * bottom), ("C_12", 0.5 * (top + end))):
         canvas.label(words.symbol(name), at - HALF, prefer=-1.0 + 0j, clear=1.0)
     _arrow(canvas, end + 6.0, end + 6.0 + 1j * ARROW, f"{words.symbol('V_t')}, a")

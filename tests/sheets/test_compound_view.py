@@ -192,3 +192,10 @@ def test_every_vector_of_compound_motion_has_its_segment_in_the_table(task: str)
 
     assert vectors != []
     assert [row for row in vectors if row[1] == "–"] == []
+
+
+def test_letters_that_are_units_too_lean_on_an_english_sheet() -> None:
+    texts = re.findall(r"<text([^>]*)>(?:m|OA|AB)</text>", sheet("bertyaev-six-bar", lang="en").svg(1))
+
+    assert len(texts) > 3
+    assert [text for text in texts if 'font-style="italic"' not in text] == []

@@ -19,7 +19,7 @@ from ....scales.scale import SERIES, Scale
 from ...areas import clipped
 from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
-from ...text import Box
+from ...text import Box, symbol
 from ...view import EACH, ELSEWHERE, UNNUMBERED, Canvas, View, write_above
 from ...words import Words
 from ..reading import Edge
@@ -243,7 +243,7 @@ def _unlettered(scene: Scene, marks: Iterable[str], shapes: Iterable[Shape]) -> 
     """Return the marks that have no letter among shapes."""
     texts = (shape.markup for shape in shapes if isinstance(shape, Text) and shape.role == "label")
     letters = {letter for text in texts for letter in text.split(", ")}
-    return [mark for mark in marks if scene.words.mark(mark) not in letters]
+    return [mark for mark in marks if symbol(scene.words.mark(mark)) not in letters]
 
 
 def enlarged(scene: Scene, quantity: str, plan: str) -> float:
