@@ -256,10 +256,13 @@ class Canvas:
         aside = NUMERAL * (1.0 if end.real > knee.real else -1.0)
         self.keep_clear(knee - aside, end + aside + 1j * (height + 1.0))  # beside a letter it would read as its index
 
-    def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
+    def finish(
+        self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = (), joined: bool = False
+    ) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view.
 
         Without a heading it has its notes only as text: they go under that of the figure of which it is a part.
+        Notes that are `joined` share lines, as many in each as have room in the width of the view.
         """
         kept, placed, scene = self._placed()
         starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
@@ -286,6 +289,8 @@ class Canvas:
             bent = Polyline(way, Pen.THIN, role="leader", name=kept[label].markup)
             self.shapes.append(bent if len(way) > 2 else Line(way[0], way[1], Pen.THIN, role="leader", name=bent.name))
             parts.append(stages[[*kept].index(label)])
+        if joined:
+            notes = _joined(self.shapes, heading, notes, self.style)
         x0, y0, x1, y1 = write_above(self.shapes, heading, notes if heading else (), self.style)
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
@@ -507,6 +512,24 @@ def write_above(shapes: list[Shape], heading: tuple[str, ...], notes: tuple[str,
         shapes += lines
     x0, _, x1, _ = extent(shapes)
     return x0, y0, x1, y1
+
+
+def _joined(shapes: Sequence[Shape], heading: Sequence[str], notes: Sequence[str], style: Style) -> tuple[str, ...]:
+    """Return notes as many in a line as have room over these shapes, or in the longest line without that."""
+
+    def wide(line: str, height: float = style.text) -> float:
+        layout = lay_out(line, height)
+        return layout.right - layout.left
+
+    x0, _, x1, _ = extent(shapes)
+    room = max(x1 - x0, *(wide(line, style.heading) for line in heading), *map(wide, notes))
+    lines = list[str]()
+    for note in notes:
+        if lines and wide(longer := f"{lines[-1]}; {note}") <= room:
+            lines[-1] = longer
+        else:
+            lines.append(note)
+    return tuple(lines)
 
 
 def heading_shapes(

@@ -238,6 +238,21 @@ def test_letter_that_may_give_way_goes_into_the_notes_where_lines_leave_no_room(
     assert roles == {"heading": "heading", "h = 1": role, "O": "label"}
 
 
+@pytest.mark.parametrize("task", some(["scheme-08-planer", "scheme-14-jaw-crusher", "nau-slider-crank"], 1))
+def test_notes_of_figures_with_forces_share_lines_where_the_figure_has_room(task: str) -> None:
+    """Seven lines stood above a lever, the shortest of them `h_G5 = 0`."""
+    hung = [view for view in motion_and_forces(task, "7").drawn.views if view.name.startswith(("group_", "lever"))]
+    assert len(hung) > 1
+    for view in hung:
+        rows = [shape for shape in view.shapes if isinstance(shape, Text) and shape.role == "heading"]
+        left, _, right, _ = extent(view.shapes)
+
+        assert [row.markup for row in rows if row.name == "note"][::-1] == [*view.notes]
+        for one, other in pairwise(view.notes):
+            layout = lay_out(f"{one}; {other}", STYLE.text)
+            assert layout.right - layout.left > right - left - 0.01
+
+
 def test_names_of_vectors_make_room_for_the_letters_of_their_ends() -> None:
     scales = {"mu_a": "0.04 (m/s^2)/mm"}
     found = sheet("scheme-15-lever-shears", "2", only="velocity,acceleration", format="A1", scales=scales)

@@ -403,7 +403,7 @@ class Sketch:
         """Letter the links, and close the view; it says that arrows have no scale, and what is zero."""
         letter_links(self.canvas, self.scene, self.figures)
         said = (self.scene.words[key] for key in (*self.said, *["said.arms"] * self.alone))
-        return self.canvas.finish(name, heading, (*said, *zeros(self.scene, self.zero)))
+        return self.canvas.finish(name, heading, (*said, *zeros(self.scene, self.zero)), joined=True)
 
     @property
     def said(self) -> tuple[str, ...]:

@@ -105,7 +105,8 @@ def lever_view(scene: Scene) -> View:
     said = ("said.lever", *sketch.said, *["said.arms"] * alone, *["said.couples"] * bool(paired))
     turned = replace(scene.scales["lever"], symbol=scene.scales["velocity"].symbol)  # it is a plan of velocities
     heading = words["heading.lever"], words.scale(turned)
-    return canvas.finish("lever", heading, (*(words[key] for key in said), *zeros(scene, [*sketch.zero, *gone])))
+    notes = (*(words[key] for key in said), *zeros(scene, [*sketch.zero, *gone]))
+    return canvas.finish("lever", heading, notes, joined=True)
 
 
 def _along_lines(scene: Scene, hung: Sequence[tuple[str, str]]) -> Iterator[tuple[str, str, str]]:
