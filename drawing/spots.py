@@ -441,7 +441,9 @@ class Surroundings:
         none, strokes = np.zeros(1), (self.kind == NAMED) | (self.kind == MAIN)
         to_ends = [self.things.distance(np.array(end.real), np.array(end.imag), none, none) for end in (a, b)]
         others = strokes & (np.maximum(*to_ends) > TOUCH)  # along which it does not lie
-        others |= (self.kind == HEAD) & (abs(self.things.middle + self.things.along - b) > TOUCH)
+        middle, tip = self.things.middle, self.things.middle + self.things.along
+        # its own head is at its tip, or in the middle of a short one
+        others |= (self.kind == HEAD) & (abs(tip - b) > TOUCH) & (abs(middle - (a + b) / 2) > TOUCH)
         near = Convex._make(column[others] for column in self.things)
         away = near.distance(starts.real[:, None], starts.imag[:, None], none, none)
         nearest: Reals = away.min(axis=1, initial=LONE)

@@ -6,6 +6,7 @@ import math
 import random
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -17,9 +18,9 @@ from kulman.drawing.labels import Labels, Request, Scene, place
 from kulman.drawing.page import extent
 from kulman.drawing.raster import CELL, Cells, Convex
 from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text, Vector
-from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
+from kulman.drawing.spots import FINE, LONE, MAIN, Obstacles, Surroundings, first_clear
 from kulman.drawing.text import lay_out
-from kulman.drawing.view import DOT, ELSEWHERE, Canvas
+from kulman.drawing.view import DOT, ELSEWHERE, Canvas, _obstacles
 from kulman.tests.support.cases import some
 from kulman.tests.support.shapes import places, within
 
@@ -482,6 +483,20 @@ def test_a_leader_leaves_the_tip_of_its_own_arrow_and_crosses_no_other() -> None
     heads = np.array([0 + 9j, 9 + 0j, 3 + 9j])
     assert around.crossed(heads, starts).tolist() == [0, 1, 0]
     assert around.barring.barred(starts, heads).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("length", [4.0, 6.0, 9.0, 14.0])
+@pytest.mark.parametrize("place", ["tip", "middle"])
+def test_leaders_start_on_the_head_of_their_own_arrow_rather_than_where_others_begin(
+    length: float, place: Literal["tip", "middle"]
+) -> None:
+    tip = turned(length, 20.0)
+    own = Vector(0j, tip, "R", 1.0, "N", 1.0, head=place)
+    others = [Vector(tip, tip + turned(60.0, turn), "F", 1.0, "N", 1.0) for turn in (100.0, 140.0)]
+    around = Surroundings(_obstacles([own, *others], [], STYLES["A1"]), GAP)
+    alone = around.alone(np.array([0.3 * tip, 0.5 * tip, tip - turned(0.5, 20.0), tip]), 0j, tip)
+    assert alone[:2].tolist() == [LONE, LONE]
+    assert alone[3] < alone[2] < LONE
 
 
 def test_leaders_run_through_what_is_kept_clear_of_letters() -> None:
