@@ -160,7 +160,8 @@ class Scene:
             clear = slice(None, None, -(-len(few) // SOME) or 1)
             few = few[clear if cross else self.around.barring.clear(leads[:, few], SOME)]
             leads, cost = leads[:, few], cost[few]
-            _, head, start, way = leads
+            at, head, start, way = leads
+            cost += spots.CLOSE * (spots.AWAY - self.around.beside(at, complex(*half), a, b))
             crossings = self.around.crossed(head, start + spots.TOUCH * way)
             few = np.arange(len(cost)) if cross else (crossings == 0).nonzero()[0]
             at, head, start, way = leads = leads[:, few]

@@ -43,6 +43,7 @@ ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a 
 STARTS = np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92])  # the same for the start of a leader
 LONE = 1.0  # mm from them at which a leader is plainly that of its own
 NEARER = 150.0  # what it costs that letters without their bar are nearer to another vector
+AWAY = 2.5  # mm from other segments at which one on a leader is plainly not theirs
 SHARED = 40.0  # what it costs a leader to start where its own line lies on another one
 STEEP = np.exp(1j * np.radians([*range(30, 151, 15), *range(-150, -29, 15)]))  # a level leader would be a bar or a dash
 FROM_RIGHT = complex(np.exp(1j * np.radians(105.0)))  # a steeper line would be read from the left
@@ -447,6 +448,18 @@ class Surroundings:
         near = Convex._make(column[others] for column in self.things)
         away = near.distance(starts.real[:, None], starts.imag[:, None], none, none)
         nearest: Reals = away.min(axis=1, initial=LONE)
+        return nearest
+
+    def beside(self, at: Points, half: complex, a: complex, b: complex) -> Reals:
+        """Return how near boxes of half size `half` about places are to other segments than that from a to b.
+
+        It is `AWAY` mm at most.
+        """
+        none = np.zeros(1)
+        to_ends = [self.things.distance(np.array(end.real), np.array(end.imag), none, none) for end in (a, b)]
+        near = Convex._make(column[self.named & ((np.maximum(*to_ends) > TOUCH) | (a == b))] for column in self.things)
+        away = near.distance(at.real[:, None], at.imag[:, None], np.array(half.real), np.array(half.imag))
+        nearest: Reals = away.min(axis=1, initial=AWAY)
         return nearest
 
     def crossed(self, heads: Points, starts: Points) -> Numbers:

@@ -18,7 +18,7 @@ from kulman.drawing.labels import Labels, Request, Scene, place
 from kulman.drawing.page import extent
 from kulman.drawing.raster import CELL, Cells, Convex
 from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text, Vector
-from kulman.drawing.spots import FINE, LONE, MAIN, Obstacles, Surroundings, first_clear
+from kulman.drawing.spots import AWAY, FINE, LONE, MAIN, Obstacles, Surroundings, first_clear
 from kulman.drawing.text import lay_out
 from kulman.drawing.view import DOT, ELSEWHERE, Canvas, _obstacles
 from kulman.tests.support.cases import some
@@ -497,6 +497,15 @@ def test_leaders_start_on_the_head_of_their_own_arrow_rather_than_where_others_b
     alone = around.alone(np.array([0.3 * tip, 0.5 * tip, tip - turned(0.5, 20.0), tip]), 0j, tip)
     assert alone[:2].tolist() == [LONE, LONE]
     assert alone[3] < alone[2] < LONE
+
+
+@pytest.mark.parametrize("turn", range(0, 360, 15))
+def test_a_letter_on_a_leader_stands_plainly_away_from_the_vector_of_another_name(turn: int) -> None:
+    tip = turned(60.0, turn)
+    requests = [Request("B", 4.0, 5.0, 0j, prefer=turned(1.0, turn + 12.0)), Request("R", 8.0, 6.0, (0j, tip))]
+    labels = place(requests, Obstacles(segments=[(0j, tip)], kept=[(-9.0, -9.0, 9.0, 9.0)]), GAP)
+    assert list(labels.leaders) == ["B"]
+    assert boxes_of(requests, labels)[0].distance(shapely.LineString([(0, 0), (tip.real, tip.imag)])) > AWAY
 
 
 def test_leaders_run_through_what_is_kept_clear_of_letters() -> None:
