@@ -440,8 +440,7 @@ class Surroundings:
     def alone(self, starts: Points, a: complex, b: complex) -> Reals:
         """Return how far places on the segment from a to b are from other lines and arrowheads, at most `LONE`."""
         none, strokes = np.zeros(1), (self.kind == NAMED) | (self.kind == MAIN)
-        to_ends = [self.things.distance(np.array(end.real), np.array(end.imag), none, none) for end in (a, b)]
-        others = strokes & (np.maximum(*to_ends) > TOUCH)  # along which it does not lie
+        others = strokes & self._off(a, b)
         middle, tip = self.things.middle, self.things.middle + self.things.along
         # its own head is at its tip, or in the middle of a short one
         others |= (self.kind == HEAD) & (abs(tip - b) > TOUCH) & (abs(middle - (a + b) / 2) > TOUCH)
@@ -455,12 +454,16 @@ class Surroundings:
 
         It is `AWAY` mm at most.
         """
-        none = np.zeros(1)
-        to_ends = [self.things.distance(np.array(end.real), np.array(end.imag), none, none) for end in (a, b)]
-        near = Convex._make(column[self.named & ((np.maximum(*to_ends) > TOUCH) | (a == b))] for column in self.things)
+        near = Convex._make(column[self.named & (self._off(a, b) | (a == b))] for column in self.things)
         away = near.distance(at.real[:, None], at.imag[:, None], np.array(half.real), np.array(half.imag))
         nearest: Reals = away.min(axis=1, initial=AWAY)
         return nearest
+
+    def _off(self, a: complex, b: complex) -> Flags:
+        """Tell which things the segment from a to b does not lie along."""
+        none, ends = np.zeros(1), np.array((a, b))[:, None]
+        off: Flags = self.things.distance(ends.real, ends.imag, none, none).max(axis=0) > TOUCH
+        return off
 
     def crossed(self, heads: Points, starts: Points) -> Numbers:
         """Count what leaders cross, run through or along, or leave at so small an angle that they seem to belong to it.
