@@ -297,20 +297,24 @@ def ruler_decimals(words: Words, segment: float) -> int:
     return HUNDREDTHS - long + centimetres
 
 
-def segment_text(words: Words, segment: float) -> str:
-    """Return a length on paper, in the unit of segments, as a ruler shows it."""
-    return words.number(segment, ruler_decimals(words, segment))
+def segment_text(words: Words, segment: float, fine: bool = False) -> str:
+    """Return a length on paper, in the unit of segments, as a ruler shows it; `fine` with its hundredths of a mm."""
+    usual, finest = (words.number(segment, ruler_decimals(words, size)) for size in (segment, 0.0))
+    return finest if fine and number_of(finest) != number_of(usual) else usual
 
 
-def read_off(words: Words, value: float, mu: float, readable: float = READABLE) -> tuple[str, str]:
+def read_off(
+    words: Words, value: float, mu: float, readable: float = READABLE, *, fine: bool = False
+) -> tuple[str, str]:
     """Return a segment that shows a value at the scale factor `mu`, as a ruler reads it, and their product.
 
-    Of what is shorter than `readable` and has fewer than two digits there is no segment.
+    Of what is shorter than `readable` and has fewer than two digits there is no segment. One that is `fine` has its
+    hundredths of a mm however long it is.
     """
     segment = abs(value) / mu
     if segment < POINT:
         return segment_text(words, 0.0), words.number(0.0, 0)
-    mm = segment_text(words, segment)
+    mm = segment_text(words, segment, fine)
     digits = len(re.sub(r"\D", "", mm).lstrip("0"))
     if segment < readable and digits < FEWEST:
         return "", value_text(words, abs(value))

@@ -47,18 +47,20 @@ class _Scales(dict[str, Scale]):
 class Scene(SubjectScene[SolvedLinkage]):
     """A solved mechanism on a certain format, in certain words; `scales` are by plan, `runs` of sliders by guide.
 
-    What is `found` for it stays, by what was asked and with the scale factors that it used.
+    What is `found` for it stays, by what was asked and with the scale factors that it used. If it is `rough`, what is
+    read off has the digits of a ruler, whatever is reckoned with it.
     """
 
     scales: Mapping[str, Scale]
     runs: Runs = field(default_factory=dict)
+    rough: bool = False
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
     found: dict[Hashable, list[tuple[dict[str, Scale], Any]]] = field(default_factory=dict, compare=False)
     skeletons: dict[int, Any] = field(default_factory=dict, init=False, compare=False)  # of links, found at its scales
 
     def once(self, make: Callable[[Scene], Made], *asked: Hashable) -> Made:
         """Return what is made for this scene, unless it has been `asked` for at the same scale factors before."""
-        before = self.found.setdefault((*asked, self.words.display), [])
+        before = self.found.setdefault((*asked, self.words.display, self.rough), [])
         for used, made in before:
             if all(self.scales[plan] == scale for plan, scale in used.items()):
                 return made  # type: ignore[no-any-return]
@@ -172,12 +174,14 @@ class Scene(SubjectScene[SolvedLinkage]):
 
     def segment(self, name: str, plan: str = "") -> str:
         """Return the printed millimetres of a quantity on a plan, the one that shows it if none is said."""
-        size = abs(self.quantities[name].value or 0.0) / self.scales[plan or self.figure_of(name)].mu
-        return self.length(size)
+        from .calculations.equations import is_fine
 
-    def length(self, drawn: float) -> str:
-        """Return millimetres of a drawing as they are printed."""
-        return segment_text(self.words, self.words.display.segment(drawn))
+        size = abs(self.quantities[name].value or 0.0) / self.scales[plan or self.figure_of(name)].mu
+        return self.length(size, role(name).kind == "h" and is_fine(self, name))
+
+    def length(self, drawn: float, fine: bool = False) -> str:
+        """Return millimetres of a drawing as they are printed, if `fine` with hundredths however many they are."""
+        return segment_text(self.words, self.words.display.segment(drawn), fine)
 
     def span(self, start: str, end: str, plan: str) -> float:
         """Return how far ends of vectors are apart on a plan: as their vector was read, else as a ruler shows it."""

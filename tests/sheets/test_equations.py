@@ -11,7 +11,7 @@ import pytest
 
 from kulman import sheet
 from kulman.drawing.formats import STYLES
-from kulman.drawing.linkages.calculations.equations import Lines, kinematics_lines, printed_segment
+from kulman.drawing.linkages.calculations.equations import Lines, drawn_on, kinematics_lines, printed_segment
 from kulman.drawing.linkages.calculations.forces import force_lines, force_parts, lever_lines
 from kulman.drawing.linkages.calculations.tables import ROWS, _links_of, formula, results_parts, results_table
 from kulman.drawing.linkages.figures.group import zeros
@@ -289,6 +289,25 @@ def test_a_quantity_has_one_number_wherever_it_is_printed(
     assert list(disagreements(drawn)) == []
     assert equation_faults(drawn)[1] == []
     assert len(told_of(drawn)) > 40
+
+
+@pytest.mark.parametrize("variant", ["0", "7"])
+@pytest.mark.parametrize("task", SCHEMES)
+def test_a_drawn_vector_has_its_segment_and_vectors_between_the_same_ends_have_one_number(
+    task: str, variant: str
+) -> None:
+    found = load_task(task)
+    scene, alike = scene_of(found.mechanism, found.values(variant)), dict[object, set[tuple[str, ...]]]()
+
+    drawn = [q for q in scene.quantities.values() if q.value and drawn_on(scene, q) in scene.scales]
+    long = [q for q in drawn if abs(q.value or 0.0) >= scene.scales[drawn_on(scene, q)].mu]
+    assert [q.name for q in long if printed_segment(scene, q)[0] == ""] == []
+    for edge in (edge for plan in scene.scales for edge in scene.reading.on(plan)):
+        ends = frozenset(complex(round(end.real, 6), round(end.imag, 6)) for end in scene.ends(edge))
+        if edge.name in scene.quantities and len(ends) > 1:
+            own = scene.quantities[edge.name]
+            alike.setdefault((role(edge.tail).plan, ends), set()).add(printed_segment(scene, own))
+    assert [numbers for numbers in alike.values() if len(numbers) > 1] == []
 
 
 def test_two_forces_that_balance_a_driver_have_one_number() -> None:

@@ -19,6 +19,7 @@ from ....plans.names import CORIOLIS, FORCES, NORMAL, POLE, role, vector
 from ....plans.quantities import Quantity, unit_of
 from ....scales.scale import Scale
 from ...printed import (
+    AS_PRINTED,
     AS_TOLD,
     POINT,
     READABLE,
@@ -48,6 +49,7 @@ TOLD += TRANSPORT
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 BEFORE_MEETING = ("normal_part", "coriolis")
 RATES = ("omega", "epsilon")
+RECKONED = ("calc", "moment")  # verbs of numbers that others give
 FURTHER = list[Callable[["Scene", Step], "Lines"]]()  # what tells a step of forces, whose module adds it
 
 
@@ -190,14 +192,15 @@ def size_by_law(
         value = form_of(step.law)(*x)
         return value.size if isinstance(value, Symbol) else abs(value)
 
-    operands = [operand(scene, name) for name in step.operands]
-    return _by_law(scene.words, head, size, operands, unit, fits=fit_for(scene, step.name))
+    operands, fits = [operand(scene, name) for name in step.operands], fit_for(scene, step.name)
+    wanted = AS_PRINTED if fits is None and is_fine(scene, step.name) else None
+    return _by_law(scene.words, head, size, operands, unit, wanted, fits)
 
 
 def _distance(scene: Scene, made: Step) -> Product:
     """Return a distance read on the plan of the mechanism as its millimetres and the scale factor."""
     words, size = scene.words, abs(scene.values[made.name])
-    own = segment(scene, "".join(map(words.mark, made.operands)), POSITION, size)
+    own = segment(scene, "".join(map(words.mark, made.operands)), POSITION, size, made.name)
     return Product((own, paper(words, scene.scales[POSITION])))
 
 
@@ -259,10 +262,11 @@ def _last_number(line: Sequence[str]) -> str:
     return found[1] if found is not None else ""
 
 
-def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
-    """Return what a plan shows as a factor in the paper's unit, without its scale factor."""
+def segment(scene: Scene, symbol: str, plan: str, size: float, name: str = "") -> Factor:
+    """Return what a plan shows as a factor in the paper's unit, without its scale factor; as its `name` is read."""
     measured = scene.words.display.segment(size / scene.scales[plan].mu)
-    return Factor(symbol, measured, told=segment_text(scene.words, measured))
+    told = segment_text(scene.words, measured, bool(name) and is_fine(scene, name))
+    return Factor(symbol, measured, told=told)
 
 
 def value_shown(scene: Scene, q: Quantity) -> float:
@@ -288,7 +292,26 @@ def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str
 def _printed_segment(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
     if plan not in ("", drawn_on(scene, q)) and not scene.words.ruler:
         return _segment_on(scene, q, plan, printed_segment(scene, q)[-1])
+    if not scene.words.ruler and opposed(scene, q.name) is None and not result_of(scene, q.name):
+        first = _there(scene, q.name)[0]
+        if first != q.name and (found := printed_segment(scene, scene.quantities[first], plan))[0]:
+            return found
     return _segment_on(scene, q, plan or _shown_on(scene, q))
+
+
+def _there(scene: Scene, name: str) -> list[str]:
+    """Return the vectors of its plan that are drawn between the ends of one, in their order; itself, if on no plan."""
+    plan, point, found = scene.figure_of(name), scene.solved.point, list[str]()
+    edges = [edge for edge in scene.reading.on(plan) if edge.name in scene.quantities] if plan in scene.scales else []
+    own = next((edge for edge in edges if edge.name == name), None)
+    if own is None or size_of(scene, name) == 0.0:
+        return [name]
+    near, ends = POINT * scene.scales[plan].mu, (point(own.tail), point(own.tip))
+    for edge in edges:
+        other = point(edge.tail), point(edge.tip)
+        if any(max(abs(a - b) for a, b in zip(ends, way, strict=True)) < near for way in (other, other[::-1])):
+            found.append(edge.name)
+    return found
 
 
 def _shown_on(scene: Scene, q: Quantity) -> str:
@@ -314,8 +337,41 @@ def _segment_on(scene: Scene, q: Quantity, plan: str, told: str = "") -> tuple[s
     if words.ruler and _is_laid(scene, q.name):  # it is as long as a ruler can lay it off
         return segment_text(words, abs(value) / mu), number, result_of(scene, q.name) or value_text(words, abs(value))
     # of an arm nothing is known but its segment
-    mm, product = read_off(words, value, mu, 0.0 if role(q.name).kind == "h" else READABLE)
+    readable = 0.0 if role(q.name).kind == "h" else READABLE
+    mm, product = read_off(words, value, mu, readable, fine=is_fine(scene, q.name))
     return mm, number, product
+
+
+def is_fine(scene: Scene, name: str) -> bool:
+    """Whether a number has a digit more than usual: without it what is laid off by it would have no segment."""
+    rough = scene.words.ruler or scene.rough
+    return not rough and scene.once(partial(_is_fine, name=name), "fine", name)
+
+
+def _is_fine(scene: Scene, name: str) -> bool:
+    rough = replace(scene, rough=True)
+    return any(_misses(rough, q) for own in _there(scene, name) for q in _laid_by(scene, own, set()))
+
+
+def _misses(scene: Scene, q: Quantity) -> bool:
+    """Whether a vector that is drawn long enough to be read has no segment that shows its number."""
+    plan = _shown_on(scene, q)
+    long = plan in scene.scales and abs(value_shown(scene, q)) >= READABLE * _factor_on(scene, q, plan)[1]
+    return long and not printed_segment(scene, q)[0]
+
+
+def _laid_by(scene: Scene, name: str, seen: set[str]) -> Iterator[Quantity]:
+    """Go through the vectors that are laid off by what is reckoned with a number, or with an arm."""
+    made = scene.made.get(name)
+    for step in scene.reading.users(made.operands[0] if made is not None and made.verb == "arm" else name):
+        if step.name in seen or step.verb not in RECKONED:
+            continue
+        seen.add(step.name)
+        drawn = scene.quantities.get(scene.reading.visible(step.name))
+        if drawn is not None and drawn_on(scene, drawn) in scene.scales and step.law != "opposite":
+            yield drawn
+        else:
+            yield from _laid_by(scene, step.name, seen)
 
 
 def _factor_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, float]:
@@ -593,7 +649,8 @@ def _similarity(scene: Scene, step: Step) -> Lines:
     if size_of(scene, first) == 0.0:
         return []
     a, b, s = map(words.mark, (start, end, step.name))
-    ab = segment(scene, f"{a}{b}", step.plan, scene.span(start, end, step.plan))
+    whole = scene.reading.between(start, end)
+    ab = segment(scene, f"{a}{b}", step.plan, scene.span(start, end, step.plan), "" if whole is None else whole.name)
     if positive(first) == positive(second):  # on the other side, as far away
         return [(f"{a}{s} = {a}{b} = {ab.told} {words.unit(words.display.paper)}",)]
     ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))

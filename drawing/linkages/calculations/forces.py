@@ -273,7 +273,7 @@ def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
 def _on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
     """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
     plan = scene.figure_of(arm)
-    own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm))
+    own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm), arm)
     return (own,) if plan == "lever" else (own, equations.paper(scene.words, scene.scales[plan]))
 
 
