@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from copy import copy
@@ -75,6 +75,27 @@ class RowOf(Spoken):
     def said(self, language: str) -> str:
         """Return the words for it in `language`."""
         return messages(language)["row-of"].format(file=self.file, row=self.row)
+
+
+class Told(Spoken):
+    """A text that is written in one language, and can be said in all."""
+
+    __slots__ = ("texts",)
+    texts: Mapping[str, str]
+
+    def __new__(cls, texts: Mapping[str, str], language: str) -> Told:
+        """Return it as it is written in `language`."""
+        told = super().__new__(cls, texts[language])
+        told.texts = texts
+        return told
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what makes it again in another process."""
+        return Told, (self.texts, next(language for language, text in self.texts.items() if text == self))
+
+    def said(self, language: str) -> str:
+        """Return it in `language`."""
+        return self.texts[language]
 
 
 def spoken(place: str, language: str) -> str:

@@ -413,6 +413,21 @@ def test_a_stream_that_nobody_reads_changes_no_status(redirection: str, task: st
     assert (done.returncode, done.stderr) == (status, b"")
 
 
+def test_what_a_class_is_told_of_is_in_the_language_of_the_console_where_files_are_in_another(
+    folder: Path, run: Run
+) -> None:
+    Path("works").mkdir()
+    Path("works/a.csv").write_text("student,Koval\ntask,madi-cam\nvariant,3\nquantity,value\nV_B,5.62\nV_A,5 kg\n")
+    Path("works/b.xlsx").write_text("junk")
+
+    for more in (["--out", "reports"], ["--out", "reports"], ["-o", "marks.csv"]):
+        status, out, _ = run("check", TASK, "works", *more)
+        assert status == 0
+        assert not re.search("[а-яі]", out), out
+        assert "not read: works/b.xlsx" in out
+    assert re.search("не прочитано: works/b.xlsx", Path("marks.csv").read_text(encoding="utf-8-sig"))
+
+
 def test_an_interrupt_is_quiet_and_a_fault_of_the_program_itself_is_not_hidden(
     monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from ...plans.marking.answers import Verdict
 from ...plans.marking.key import Key
 from ...plans.marking.verdicts import CLEAR
-from ...scales.errors import KulmanError, spoken
+from ...scales.errors import LANGUAGES, KulmanError, Told, spoken
 from ..roster import WHO, Entry, Who
 from ..tables import Cell
 from .marked import TOLD_APART, Marked
@@ -267,13 +267,16 @@ class Result:
 
     def noted(self, language: str) -> tuple[str, ...]:
         """Return what is noted of this student, that nothing has been handed in, too."""
-        return (texts(language)["class.absent"],) if self.empty else self.notes
+        return (
+            (texts(language)["class.absent"],) if self.empty else tuple(spoken(note, language) for note in self.notes)
+        )
 
     def flags(self, language: str) -> list[str]:
         """Return what a teacher should check of this student alone."""
         said = texts(language)
         exact = [said["flag.exact"]] if self.exact else []
-        return [*self.contradicts, *exact, *([said["flag.variant"].format(variant=self.fits)] if self.fits else [])]
+        contradicts = [spoken(note, language) for note in self.contradicts]
+        return [*contradicts, *exact, *([said["flag.variant"].format(variant=self.fits)] if self.fits else [])]
 
     def explained(self, language: str, numbered: bool = True) -> list[str]:
         """Return what explains the answers: mistakes in words, after their numbers, or how many it may be."""
@@ -326,7 +329,7 @@ def result_of(marked: Marked, language: str) -> Result:
         {str(verdict): marked.count(verdict) for verdict in Verdict},
         "" if first is None else key.symbol(first),
         tuple(dict.fromkeys(broken.mistake for broken in best)),
-        tuple(note.text(language) for note in marked.notes if note.key not in CONTRADICTS),
+        tuple(_told(note, language) for note in marked.notes if note.key not in CONTRADICTS),
         _too_exact(segments),
         segments,
         (),
@@ -335,7 +338,7 @@ def result_of(marked: Marked, language: str) -> Result:
         tuple(sorted(marked.absent)),
         tuple(sorted(ids - {broken.mistake for broken in best})),
         marked.slips,
-        tuple(note.text(language) for note in marked.notes if note.key in CONTRADICTS),
+        tuple(_told(note, language) for note in marked.notes if note.key in CONTRADICTS),
     )
 
 
@@ -344,13 +347,19 @@ def nothing(answers: Answers, entry: Entry | None, variant: str) -> Result:
     return Result(answers.source, entry.who if entry else answers.who, variant)
 
 
+def _told(error: KulmanError, language: str, unread: bool = False) -> Told:
+    """Return a note as tables have it, which a console says in its own language; of `unread` files that they are."""
+    said = {known: error.text(known) for known in LANGUAGES}
+    if unread:
+        said = {known: texts(known)["class.unread"].format(reason=reason) for known, reason in said.items()}
+    return Told(said, language)
+
+
 def failed(answers: Answers, entry: Entry | None, error: KulmanError, language: str) -> Result:
     """Return what is kept of a student whose answers cannot be marked: why, and what else was odd in them."""
-    reason = error.text(language)
-    told = texts(language)["class.unread"].format(reason=reason) if answers.unread else reason
     # what another task asks is no problem of these answers
     problems = () if error.key == "marked-other-task" else answers.problems
-    notes = (told, *(problem.text(language) for problem in problems))
+    notes = (_told(error, language, bool(answers.unread)), *(_told(problem, language) for problem in problems))
     return Result(answers.source, entry.who if entry else answers.who, entry.variant if entry else "", notes=notes)
 
 
@@ -464,7 +473,7 @@ def class_lines(lines: Lines, language: str) -> Iterator[str]:
     said, sign = texts(language), "." if language == "en" else ","
     names, results = names_of(lines, language), marked_of(lines)
     width = max(map(len, names), default=0)
-    noted = [result.notes for result in results if result.mark is not None]
+    noted = [result.noted(language) for result in results if result.mark is not None]
     of_all = [note for note in noted[0] if all(note in notes for notes in noted)] if len(noted) > 1 else []
     for name, line, flags in zip(names, lines, flags_of(lines, language), strict=True):
         if isinstance(line, Entry):
