@@ -445,7 +445,9 @@ class _Search:
         wrong = self.wrong_by_value if by_scale else self.faulty.keys()  # no scale makes millimetres alone wrong
         left = tuple(line.name for line in again if line.verdict.faulty or line.name in self.faulty.keys() - wrong)
         explained = tuple(name for name in self.faulty if name not in left)
-        if not explained:
+        # of a plan that is drawn to another scale factor values alone show it
+        shown = self.valued | {line.name for line in again if line.plan != last.broken.at}
+        if not explained or (by_scale and shown.isdisjoint(explained)):
             return None
         off = np.array([min(line.off, MOST) for line in again if line.answer is not None])
         misses = float(np.sqrt(np.mean(off * off)))

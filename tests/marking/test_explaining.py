@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import random
 from collections import Counter
@@ -16,6 +17,7 @@ from kulman.plans.hands.shaky import Paper
 from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
+from kulman.plans.marking.ways import as_drawn
 from kulman.plans.mistakes.book import Book, Signature, book, broken, signatures
 from kulman.plans.mistakes.explaining import Candidate, _Explanation, explain
 from kulman.plans.mistakes.rules import BY_SCALE
@@ -268,6 +270,18 @@ def test_no_scale_factor_is_named_first_where_no_value_is_written(task: str, pla
                              if one.mm is not None]).candidates[0]  # fmt: skip
 
     assert not BY_SCALE.intersection(one.mistake for one in first.mistakes)
+
+
+def test_no_scale_factor_explains_a_point_of_its_plan_that_is_drawn_elsewhere() -> None:
+    """A vector between two points that were read follows from any scale factor, where no value is written."""
+    of = key(EXAMPLE)
+    mu, base, tip = of.paper.mus["velocity"], of["V_A"], 0.78 * of["V_B"]
+    ends = {"V_A": base, "V_BA": tip - base, "V_B": tip, "V_S2": base + (tip - base) * of["l_AS2"] / of["l_AB"]}
+
+    answers = [Answer(n, mm=abs(v) / mu, mu=mu, direction=cmath.phase(v)) for n, v in ends.items()]
+    found = explain(as_drawn(mistakes(EXAMPLE)), mark(of, answers))
+
+    assert not [one.ids for one in found.candidates if BY_SCALE & one.ids]
 
 
 def test_right_answers_have_no_explanation() -> None:
