@@ -550,13 +550,14 @@ def test_columns_of_a_class_are_known_however_they_are_abbreviated_and_what_stan
 ) -> None:
     below = "Итого по списку;28\nВсього;\nПреподаватель: Петренко;\n;Староста Сидоренко\nДата:;\n"
     (file := tmp_path / "class.csv").write_text(
-        f"{heads};V_B, мм;V_B, м/с\nСтароста Олег;3;45мм?;4,5 м/с?\nІваненко;4;46;4,6\n{below}", encoding="utf-8"
+        f"{heads};V_B, мм;V_B, м/с\nСтароста Олег;3;45мм?;4,5 м/с?\nІваненко;4;46?;4,6 ??\n{below}", encoding="utf-8"
     )
 
     first, second = _read_answers(file, ASKED)
 
     assert (first.who.student, first.about["variant"], second.who.student) == ("Староста Олег", "3", "Іваненко")
     assert (first.lines["V_B"].mm, first.lines["V_B"].value, first.problems) == (45.0, 4.5, ())
+    assert (second.lines["V_B"].mm, second.lines["V_B"].value, second.problems) == (46.0, 4.6, ())
 
 
 def test_a_class_without_a_column_of_names_is_refused(tmp_path: Path) -> None:

@@ -31,6 +31,7 @@ SIGNS = ("+", "-", "−", "–")
 WORDIEST = 200  # characters of a cell in which a sense is looked for
 _ALONG_OR_AGAINST = frozenset((*TURNING["along"], *TURNING["against"]))
 _BEHIND = ("(+)", "(-)", "(−)", "(–)", "+")
+_DOUBT = re.compile(r"(?<=[0-9])\s*[?]+$")  # behind a unit it may be a lost ²
 _ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[kind] if not word.isalpha())
 # б and ю lie where other keyboards have comma and point: between digits they are decimal signs
 _SIGN_KEY, _KEYS = re.compile("(?<=[0-9])[бюБЮ](?=[0-9])"), str.maketrans("бюБЮ", ",.,.")
@@ -171,9 +172,9 @@ def is_garbled(text: str) -> bool:
 def signed(text: str) -> str:
     """Return a number with the sign directly before it that stands apart from it, or behind it: `28.79 (+)`.
 
-    That it is told to be rounded, `≈ 28.79`, says nothing more.
+    That it is told to be rounded, `≈ 28.79`, or is doubted, `28.79?`, says nothing more.
     """
-    text = in_degrees(text.translate(_WIDE).lstrip("≈~∼ "))
+    text = in_degrees(_DOUBT.sub("", text.translate(_WIDE).lstrip("≈~∼ ")))
     if text[:1] in "+-−–" and text[1:2].isspace():
         return text[0] + text[1:].lstrip()
     if not text.endswith(_BEHIND):
