@@ -18,6 +18,7 @@ import kulman
 from kulman.tests.support.answer_files import write
 from kulman.variants.marking.checks import write_tables
 from kulman.variants.marking.report import report_html
+from kulman.variants.reader import load_task
 from kulman.variants.serving.making import Job
 from kulman.variants.serving.pages import Door, job
 from kulman.variants.shelf import bundled, bundled_text, guide_text, guides
@@ -103,6 +104,11 @@ def test_one_plan_alone_may_be_chosen_and_downloaded(lang: str, called: str, cli
     page = client.get(at).text
 
     assert re.search(rf'<option[^>]*value="velocity"[^>]*selected[^>]*>{called}<', page)
+    for task in (TASK, "madi-cam", "madi-gear", "karpenko-hoist"):
+        options = client.get(f"/task/{task}?lang={lang}").text.partition('name="only"')[2].partition("</select>")[0]
+        names = re.findall(r'<option value="(\w+)">(.*?)<', options)
+        assert [plan for plan, _ in names] == [*load_task(task).plans]
+        assert lang == "en" or all(re.fullmatch("[а-яїієґ ]+", name) for _, name in names), names
     assert client.get(at.replace("?", "/page.svg?")).text == alone.svg(1)
     assert client.get(at.replace("?", "/sheet.svg?")).text == alone.svg(1)
     assert "only=velocity" in re.findall(r'href="[^"]*/sheet\.pdf[^"]*"', page)[0]
