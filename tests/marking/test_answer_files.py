@@ -220,6 +220,17 @@ def test_csv_comes_in_any_encoding_with_any_separator(tmp_path: Path, encoding: 
     assert (line.value, line.mm) == pytest.approx((2.76, 55.2))
 
 
+def test_csv_of_dos_is_read_with_the_letters_that_it_has_not(tmp_path: Path) -> None:
+    """Excel offers CSV (MS-DOS), too: nobody was told that its encoding was why no row said what stands in columns."""
+    rows = [["студент", "Єва Їжак"], HEAD.strip().split(";"), ROW.strip().split(";")]
+
+    answers = one(tmp_path, table(rows).replace("і", "i").encode("cp866"))
+
+    line = answers.lines["V_B"]
+    assert (answers.who.student, answers.problems) == ("Єва Їжак", ())
+    assert (line.value, line.mm) == pytest.approx((2.76, 55.2))
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_form_saved_by_an_old_spreadsheet_comes_back(tmp_path: Path, language: str) -> None:
     text = form(tmp_path, "form.csv", language).read_text(encoding="utf-8-sig")

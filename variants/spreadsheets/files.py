@@ -111,19 +111,34 @@ def _told(rows: list[tuple[str, ...]]) -> tuple[int, int, int]:
 
 
 def _decoded(file: str, data: bytes) -> str:
-    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows, or of Western; none has a NUL."""
+    """Return the text: UTF-8 if it can be, else Cyrillic of Windows or DOS, or Western Windows; none has a NUL."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encodings: tuple[str, ...] = ("utf-16",)
     else:
-        encodings = ("utf-8-sig", *(("cp1252",) if _is_western(data) else ()), "cp1251")
+        other = "cp866" if _is_of_dos(data) else "cp1252" if _is_western(data) else "cp1251"
+        encodings = "utf-8-sig", other, "cp1251"
     for encoding in encodings:
         try:
             text = data.decode(encoding)
         except UnicodeDecodeError:
             continue
+        if encoding == "cp866":  # which has no Ukrainian i: a Latin one stands there
+            text = re.sub(r"i(?=[’'а-яєїґ])|(?<=[а-яєїґ])i", "і", re.sub(r"I(?=[’'А-яЄЇєї])|(?<=[А-ЯЄЇ])I", "І", text))
         if "\0" not in text:
             return text
     raise InputError("answers-encoding", file=quote(file, SHOWN))
+
+
+def _is_of_dos(data: bytes) -> bool:
+    """Whether a text is in Cyrillic of DOS, as Excel's CSV (MS-DOS) is: most letters are where Windows has signs.
+
+    >>> _is_of_dos("Мельник;група".encode("cp866")), _is_of_dos("Мельник;група".encode("cp1251"))
+    (True, False)
+    >>> _is_of_dos("O’Neil;–5;–6 m/s²".encode("cp1252"))
+    False
+    """
+    signs, letters = (len(re.findall(one, data)) for one in (rb"[\x80-\xaf]", rb"[\xb0-\xff]"))
+    return signs > letters and bool(re.search(rb"[\x80-\xaf\xe0-\xef]{4}", data))
 
 
 def _is_western(data: bytes) -> bool:
