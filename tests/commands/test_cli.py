@@ -652,6 +652,9 @@ def test_a_copied_task_is_the_users_own(task: str, folder: Path, run: Run) -> No
     for words in (comments.replace("мій", ""), " ".join(re.findall(r"#(.*)", shown))):
         assert language == "en" or not FOREIGN[language].search(words)
         assert (language == "en") == (not CYRILLIC.search(words))
+    above = re.search(r"((?:#.*\n)+)\[givens\]\n", copied)
+    assert above
+    assert not re.search("at the end|наприкінці|в конце", above[1])  # the variants may stand first
     rows = re.search(r"(?<=^\[givens\]\n)(?:.+\n)+", copied, re.MULTILINE)
     assert rows
     assert all(re.search(r"\}  +# \w{2,}", row) for row in rows[0].splitlines())
