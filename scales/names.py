@@ -164,7 +164,8 @@ def of_its_kinds(*block: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         @wraps(function)
         def checked(*arguments: P.args, **named: P.kwargs) -> R:
             if block or not others:
-                all_known("argument-unknown", named, [name for name in known if name != "self"])
+                own = [name for name in known if name != "self"]
+                all_known("argument-unknown", named, own, "argument-given" if "set" in known else None)
             if lacking := [name for name in needed if name not in {*places[: len(arguments)], *named}]:
                 raise InputError("argument-missing", name=", ".join(lacking))
             if not several and (len(arguments) > len(usual) or {*usual[: len(arguments)]} & {*named}):
@@ -208,8 +209,10 @@ def names_of(
     return tuple(dict.fromkeys(names) if once else names)
 
 
-def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
-    """Refuse, with the message `key`, the names that are not known."""
+def all_known(key: str, names: Iterable[str], known: Collection[str], unlike: str | None = None) -> None:
+    """Refuse, with the message `key`, the names that are not known; with that of `unlike` one that is like none."""
     faults = [unknown(key, name, known) for name in names if name not in known]
+    if unlike is not None:
+        faults = [UnknownNameError(unlike, **one.data) if one.key == key else one for one in faults]
     if faults:
         raise as_one(faults)

@@ -169,6 +169,11 @@ def test_arguments_that_python_itself_would_refuse_are_refused_in_the_users_lang
 def test_an_argument_that_there_is_not_is_answered_with_all_that_there_are() -> None:
     with pytest.raises(KulmanError, match="unknown argument 'tile'; expected one of: task, variant, steps, key, "):
         kulman.handout(TASK, tile="A4")
+    for language in LANGUAGES:
+        with pytest.raises(KulmanError) as caught:
+            kulman.solve(TASK, l_OA=30, phi=30)  # they may be givens
+        assert 'set={"l_OA": ...}; ' in caught.value.text(language)
+        assert caught.value.text(language).endswith(' set={"phi": ...}')
     with pytest.raises(KulmanError, match="unknown argument 'position'; did you mean positions"):
         kulman.sweep(TASK, position=5)
 
