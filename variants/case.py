@@ -485,7 +485,7 @@ def far(task: Task, values: Mapping[str, float | str]) -> Iterator[InputError]:
     """Go through values that are hundreds of times more or less than any variant has: metres for millimetres."""
     for name, value in values.items():
         given, row = task.givens[name], (variant.values.get(name) for variant in task.variants.values())
-        if isinstance(value, str) or given.unit is None:
+        if isinstance(value, str) or given.unit is None or (given.bound is Bound.FREE and given.unit.dimension.angle):
             continue
         sizes = [size for size in row if not isinstance(size, str) and size]
         # a coordinate or a force of either sense may be as small as it likes

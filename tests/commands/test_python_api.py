@@ -27,6 +27,7 @@ from kulman.cli import commands
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.commands import Run
 from kulman.variants.making.all_variants import AllVariants
+from kulman.variants.shelf import text_of
 from kulman.variants.solution import Solution
 from kulman.variants.tables import FILES, Result
 
@@ -558,6 +559,12 @@ def test_newtons_for_kilonewtons_are_warned_of_and_a_small_force_is_not() -> Non
     assert len(solve(TASK, "3", set={"F_3": -2000}).warnings) == 1
     assert solve(TASK, "3", set={"F_3": 0.001}).warnings == ()
     assert solve(TASK, "3", set={"F_3": "2000 N"}).warnings == ()
+
+
+def test_no_angle_is_far_from_another(tmp_path: Path) -> None:
+    (file := tmp_path / "task.toml").write_text(re.sub(r'phi = "\d+ deg"', 'phi = "1 deg"', text_of(TASK)), "utf-8")
+
+    assert solve(str(file), "3", set={"phi": 150}).warnings == ()
 
 
 def test_a_report_has_its_mark_and_is_text_or_files(tmp_path: Path) -> None:
