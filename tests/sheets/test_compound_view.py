@@ -199,3 +199,14 @@ def test_letters_that_are_units_too_lean_on_an_english_sheet() -> None:
 
     assert len(texts) > 3
     assert [text for text in texts if 'font-style="italic"' not in text] == []
+
+
+def test_letters_of_points_that_are_no_joints_stand_at_them() -> None:
+    for point in ("M", "K"):
+        for name in (f"compound_a_{point}", "compound_velocity"):
+            figure = view("bertyaev-six-bar", name)
+            (letter,) = [text for text in figure.of("label") if text.string == point]
+
+            x0, y0, x1, y1 = letter.box
+            (at,) = letter.of
+            assert abs(complex(max(x0 - at.real, at.real - x1, 0.0), max(y0 - at.imag, at.imag - y1, 0.0))) < 5.5

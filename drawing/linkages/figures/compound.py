@@ -189,8 +189,8 @@ def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Ske
         if point not in joints:
             canvas.add(scene.point(at, point))
         in_block = point in joints and any(abs(block - at) < style.pair for block in blocks)
-        clear = (style.slider[1] / 2 if in_block else style.pair) + 0.8
-        canvas.label(scene.words.mark(point), at, clear=clear, priority=1)
+        rim = style.slider[1] / 2 if in_block else style.pair if point in joints else style.node
+        canvas.label(scene.words.mark(point), at, clear=rim + 0.8, priority=1)
     return figures
 
 
