@@ -45,9 +45,9 @@ FORCES = "velocity,acceleration,forces"
 
 
 @cache
-def drawn(task: str, only: str = "position", lang: str = "uk") -> tuple[Drawn, Sheet]:
+def drawn(task: str, only: str = "position", lang: str = "uk", variant: str | None = None) -> tuple[Drawn, Sheet]:
     """A sheet of A1, and what is read back of it."""
-    found = sheet(task, only=only, format="A1", lang=lang)
+    found = sheet(task, variant, only=only, format="A1", lang=lang)
     return found, read_back(found)
 
 
@@ -222,6 +222,23 @@ def test_driver_with_a_short_crank_is_drawn_larger() -> None:
     ]
     assert f"h_{{21}} = {row[1]}" in [t.string for t in view.of("label")]
     assert row[2] == f"{mu:g}"
+
+
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [
+        pytest.param("scheme-13-toggle-press", "2", id="a foot beside the pivot"),
+        pytest.param("scheme-06-opposed-compressor", "1", id="a foot above"),
+        pytest.param("scheme-07-two-stage-compressor", "4", id="little room beside a foot"),
+    ],
+)
+def test_the_moment_that_balances_turns_clear_of_the_foot_of_its_pivot(task: str, variant: str) -> None:
+    view = drawn(task, FORCES, variant=variant)[1]["driver"]
+    (arc,) = [s for s in view.inside("arrow", "M_bal") if s.arc]
+    foot = view.inside("pivot")
+
+    assert len(foot) > 5
+    assert min(shapely.distance(arc.ink, s.ink) for s in foot) > 1.0
 
 
 @pytest.mark.parametrize(("lines", "role"), [("", "label"), ("along", "heading"), ("across", "heading")])

@@ -553,7 +553,7 @@ def driver_view(scene: Scene) -> View:
             if point in still:
                 sketch.hang(name, scene.mm(point))
         if "M_bal" in scene.values:
-            _balance(sketch, o)
+            _balance(sketch, o, foot)
         else:
             sketch.hang("_F_bal", scene.mm(driver.point))
     else:
@@ -565,21 +565,26 @@ def driver_view(scene: Scene) -> View:
     return sketch.finish("driver", scene.heading("heading.driver", POSITION))
 
 
-def _balance(sketch: Sketch, o: complex) -> None:
-    """Draw the balancing moment on the freest side of O: foot, crank, reaction and arms leave from there, too."""
+def _balance(sketch: Sketch, o: complex, foot: complex) -> None:
+    """Draw the balancing moment on the freest side of O: crank, reaction and arms leave from there; off the foot."""
     scene, canvas, value = sketch.scene, sketch.canvas, sketch.scene.values["M_bal"]
     if value != value or scene.vanishes("M_bal"):
         sketch.zero.append("M_bal")
         return
-    radius = 0.62 * scene.style.force
+    radius, spread = 0.62 * scene.style.force, 1.5
     ends = [end for shape in canvas.shapes for end in _ends(shape) if 0.1 < abs(end - o) < 3 * radius]
     rays = [end - o for stroke in sketch.strokes for end in stroke if abs(end - o) > 0.1]
-    busy = [-1j, 1 - 1.5j, -1 - 1.5j, *rays, *(unit(end - o) for end in ends)]
+    ground = [foot * ray for ray in (1, 1.5 + 1j, 1.5 - 1j)]
+    busy = [*ground, *rays, *(unit(end - o) for end in ends)]
+
+    def free(angle: float, among: Iterable[complex]) -> float:
+        return round(min(abs(phase(rect(1.0, angle) / ray)) for ray in among), 6)
+
     middle = max(
         (k * math.pi / 12 for k in range(24)),
-        key=lambda angle: (round(min(abs(phase(rect(1.0, angle) / ray)) for ray in busy), 6), -angle),
+        key=lambda angle: (free(angle, ground) > spread / 2 + 0.1, free(angle, busy), -angle),
     )
-    canvas.add(turning_arrow(o, radius, middle, 1.5, math.copysign(1.0, value), "M_bal"))
+    canvas.add(turning_arrow(o, radius, middle, spread, math.copysign(1.0, value), "M_bal"))
     canvas.label(scene.words.symbol("M_bal"), o + rect(radius, middle), prefer=rect(1.0, middle), clear=1.4)
 
 
