@@ -226,7 +226,7 @@ class Plan:
     def read_in(self, window: Window) -> Iterator[str]:
         """Go through the quantities whose vectors, too short for an arrowhead on the plan, can be read in a window."""
         for vector in self.vectors():
-            long = length_of(vector) * window.times >= self.scene.style.arrow
+            long = length_of(vector) * window.times >= SHORT
             if long and _in_inset(self.scene, [window], (vector.tail, vector.tip)):
                 yield vector.quantity
 
@@ -381,7 +381,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, told: bool = F
         if cut is None or abs(cut[1] - cut[0]) < 1e-6:
             continue
         if whole := abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6:
-            canvas.add(headed(replace(vector, tail=tail, tip=tip, mu=own.mu), scene.style.arrow))
+            canvas.add(headed(replace(vector, tail=tail, tip=tip, mu=own.mu), SHORT))
         else:
             parts: list[Shape] = [Line(*cut)]
             parts += [Head(tip, tip - tail)] if abs(cut[1] - tip) < 1e-6 and vector.head == "tip" else []
