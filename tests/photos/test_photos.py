@@ -868,6 +868,18 @@ def test_where_a_short_vector_goes_on_in_line_a_longer_one_begins(short: float, 
     assert abs(points[2] - (a + 30j)) < 0.5
 
 
+@pytest.mark.parametrize("longer", [0.0, 2.5])
+def test_what_only_a_short_vector_tells_is_not_sure_where_its_line_ends_elsewhere(longer: float) -> None:
+    pole, a, end = 20 + 10j, 60 + 10j, 60 + (54 + longer) * 1j
+    pencil = pencil_of([(pole, a), (a, end), (end, end - 4j), (a + 40j, pole)], [])
+    way = plan_of([0j, 40 + 0j, 40 + 44j, 40 + 40j], (0, 1), (1, 2), (2, 3), (3, 0))
+
+    _, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert bool(errors[2] < SURE) is (longer == 0.0)
+    assert errors[3] < SURE
+
+
 def test_one_point_that_is_taken_for_another_makes_no_plan_larger() -> None:
     places = np.array([10 + 5j, 60 + 0j, 58 + 2j, 95 - 20j])
 

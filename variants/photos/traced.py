@@ -50,7 +50,7 @@ DOUBTED = 0.2  # part by which wings at the wrong end are darker from which they
 TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have wings, be these; places that tell
 ONWARD = math.radians(40.0)  # of a line from where one ends: it leaves that gradually, and no end is seen
 LIKE, NEARER = math.radians(3.0), 0.5  # of lines that look like wings; mm by which ends are nearer to their points
-POLE, ENDING, POINTING = 0.15, 0.2, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
+POLE, ENDING, POINTING = 0.15, 0.15, 0.35  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
 PLACED = 0.2  # mm, error of a point that should lie on a line, and is put there by eye
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
 LIKELY = 2.5  # errors between a crossing and an end that is that of the point
@@ -125,7 +125,7 @@ def traced(
     """
     ends = way.tails[way.lines], way.tips[way.lines]
     sizes = np.abs(wanted[ends[1]] - wanted[ends[0]])
-    errors, found = np.full(len(points), LOST), dict[int, Traced]()
+    errors, tied, found = np.full(len(points), LOST), np.zeros(len(points), bool), dict[int, Traced]()
     for aside, step in PASSES:
         lines = [
             _line(pencil, complex(points[tail]), complex(points[tip]), aside, step)
@@ -133,9 +133,9 @@ def traced(
         ]
         found = {n: line for n, line in enumerate(lines) if line is not None and sizes[n] >= SHORTEST}
         spots = _spots(pencil, way, points, found)
-        points, errors = _solved(way, wanted, points, found, spots, pole)
+        points, errors, tied = _solved(way, wanted, points, found, spots, pole)
     for mark, some in spots.items():
-        if _contradicted(some, complex(points[mark])):
+        if _contradicted(some, complex(points[mark])) or (tied[mark] and _astray(some, complex(points[mark]))):
             errors[mark] = LOST
     return points, np.where(np.abs(points - wanted) > FAR, LOST, errors), found
 
@@ -154,6 +154,11 @@ def _contradicted(spots: list[_Spot], point: complex) -> bool:
         for (unit, end), (of, head) in product(ends, heads)
         if unit == of
     )
+
+
+def _astray(spots: list[_Spot], point: complex) -> bool:
+    """Whether lines end, and arrowheads point, only far beside a point of which nothing but its neighbours tells."""
+    return bool(spots) and all(abs(dot(spot.unit, spot.place - point)) > STRAYED for spot in spots)
 
 
 def between(way: Way, mark: int) -> NDArray[np.bool_]:
@@ -347,13 +352,15 @@ def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterato
     before = ~hid & (along < 0.0)
     if not before.any():
         return
-    on = np.asarray((dark > max(FAINT / 2, FALL * float(np.median(dark[before])))) & ~hid)
+    level = max(FAINT / 2, FALL * float(np.median(dark[before])))
+    on = np.asarray((dark > level) & ~hid)
     clear = round(CLEAR * PER_MM)
     for at in np.flatnonzero(on).tolist():
         beyond = slice(at + 1, at + 1 + clear)
         if at + clear < len(along) and not on[beyond].any():
             if not hid[beyond].any():
-                end = complex(foot + (along[at] - ROUND) * unit)
+                past = (dark[at] - level) / (dark[at] - dark[at + 1])  # of a pixel that it goes on
+                end = complex(foot + (along[at] + past / PER_MM - ROUND) * unit)
                 dark, _ = _flanks(pencil, end, unit, np.arange(-ALONE, CLEAR, 1.0 / PER_MM))
                 yield _Spot(end, unit, clean=bool(dark.max() < WIDE * line.dark))
             return
@@ -454,8 +461,10 @@ def _solved(
     found: dict[int, Traced],
     spots: dict[int, list[_Spot]],
     pole: complex,
-) -> tuple[Complex, Floats]:
-    """Return where points of a plan are, and their errors: where lines cross, and with ends where that is flat.
+) -> tuple[Complex, Floats, NDArray[np.bool_]]:
+    """Return where points of a plan are, their errors, and which of them only short vectors tell of.
+
+    They are where lines cross, and with ends where that is flat.
 
     Points that a short vector joins, of which nobody is asked, are as far from one another as they should be, about.
     """
@@ -483,7 +492,7 @@ def _solved(
             if told:
                 left[mark] = []
         crossings, errors = rows.solved()
-    return crossings, errors
+    return crossings, errors, rows.spread(tied=False) > FLAT
 
 
 def _telling(spots: list[_Spot], crossing: complex, error: float, wanted: complex) -> list[_Spot]:
@@ -521,6 +530,7 @@ class _Rows:
         self.points = points
         self.rows: list[Floats] = []
         self.right: list[float] = []
+        self.weight = np.ones(0)  # of each, once they are solved
 
     def add(self, mark: int, unit: complex, place: complex, error: float) -> None:
         """Say that a point lies at a place in a direction."""
@@ -543,11 +553,17 @@ class _Rows:
         An equation that most others contradict counts less and less: the line of a neighbour may have been taken.
         """
         rows, right = np.array(self.rows).reshape(len(self.rows), 2 * len(self.points)), np.array(self.right)
-        free, weight = np.eye(2 * len(self.points)), np.ones(len(rows))
+        free, self.weight = np.eye(2 * len(self.points)), np.ones(len(rows))
         for _ in range(ROUNDS):
-            own = (weight * rows.T) @ rows
-            x = np.linalg.solve(own + free / NEAR**2, (weight * rows.T) @ right)
-            weight = 1.0 / (1.0 + ((rows @ x - right) / STRANGE) ** 2)
-        spread = np.diag(np.linalg.inv(own + free / LOST**2))
+            own = (self.weight * rows.T) @ rows
+            x = np.linalg.solve(own + free / NEAR**2, (self.weight * rows.T) @ right)
+            self.weight = 1.0 / (1.0 + ((rows @ x - right) / STRANGE) ** 2)
         moved = x.reshape(-1, 2)
-        return self.points + moved[:, 0] + 1j * moved[:, 1], np.sqrt(spread.reshape(-1, 2).sum(axis=1))
+        return self.points + moved[:, 0] + 1j * moved[:, 1], self.spread()
+
+    def spread(self, tied: bool = True) -> Floats:
+        """Return the errors of the points, with or without what is said of two of them, as they were solved."""
+        rows = np.array(self.rows).reshape(len(self.rows), 2 * len(self.points))
+        weight = self.weight * (tied | (np.count_nonzero(rows.reshape(len(rows), -1, 2).any(axis=2), axis=1) < 2))
+        spread = np.diag(np.linalg.inv((weight * rows.T) @ rows + np.eye(rows.shape[1]) / LOST**2))
+        return np.sqrt(spread.reshape(-1, 2).sum(axis=1))
