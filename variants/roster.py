@@ -166,8 +166,24 @@ def of_several_groups(students: Iterable[Who]) -> Iterator[InputError]:
 
 
 def named(students: Iterable[Who]) -> Written:
-    """Return the names of students for a message."""
-    return Written(", ".join(quote(who.student or who.book, SHOWN) for who in students))
+    """Return the names of students for a message, namesakes with what tells them apart.
+
+    >>> str(named([Who("Lee", group="A", book="1"), Who("Lee", group="A", book="2"), Who("Kim")]))
+    'Lee (1), Lee (2), Kim'
+    >>> str(named([Who("Lee"), Who("Lee"), Who(book="7")]))
+    'Lee, Lee, 7'
+    """
+    people, shown = [*students], list[str]()
+    for who in people:
+        same = [one for one in people if one.student == who.student]
+        apart = (
+            key for key in ("group", "book", "number", "email") if len({getattr(o, key) for o in same}) == len(same)
+        )
+        more = getattr(who, next(apart, "student")) if len(same) > 1 else who.student
+        shown.append(
+            quote(who.student or who.book, SHOWN) + (f" ({quote(more, SHOWN)})" if more != who.student else "")
+        )
+    return Written(", ".join(shown))
 
 
 ALPHABETS = {"uk": "абвгґдеєжзиіїйклмнопрстуфхцчшщьюя", "ru": "абвгдеёжзийклмнопрстуфхцчшщъыьэюя"}

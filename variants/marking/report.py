@@ -350,7 +350,7 @@ def report_text(report: Report) -> str:
 TAGS = {0: "", 1: "sup", -1: "sub"}
 STYLE = """
 body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
-h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
+@media screen{body{padding:0 4mm}}h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
 table{border-collapse:collapse;width:100%}th,td{border:1px solid #888;padding:1mm 2mm;text-align:left}
 th{background:#eee}td.n,.lines td:not(.v){white-space:nowrap}
 tr.wrong td,tr.uncounted td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
