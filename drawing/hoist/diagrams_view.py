@@ -456,7 +456,7 @@ def _circle_view(scene: HoistScene) -> View:
         if abs(reached.get(name, scene.size(name)) - scene.size(name)) > SAME * scene.size("R"):
             continue  # the rope goes slack before, or the load comes back
         canvas.part("ends" if name in reached else "start", scene.node(at, name, filled=True))
-        canvas.small(scene.stated(name), at, (at or -1.0 - 0.4j) - 0.6j, 1.2)
+        canvas.small(scene.stated(name), at, (at or -1.0 - 0.4j) - 0.6j, 2.0 if name in reached else 1.2)
     notes = (
         f"{scene.stated('R')};  {words['hoist.equal']}",
         *([words["hoist.slack"]] if scene.solved.layout.slack else []),

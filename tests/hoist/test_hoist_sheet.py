@@ -493,3 +493,16 @@ def test_a_sheet_has_what_belongs_to_the_parts_wanted(only: str, own: set[str]) 
         "results",
         "scales",
     }
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_least_force_of_the_second_phase_stands_a_millimetre_from_the_circle(case: HoistCase) -> None:
+    circle = case.sheet["circle"]
+    centre = node(circle, "P_m")
+    radius = abs(node(circle, "P_12_min") - centre)
+
+    (letter,) = [text for text in circle.of("label") if text.string.startswith("P_{12 min} =")]
+
+    x0, y0, x1, y1 = letter.box
+    near = complex(min(max(centre.real, x0), x1), min(max(centre.imag, y0), y1))
+    assert abs(abs(near - centre) - radius) > 1.0
