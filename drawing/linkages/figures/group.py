@@ -32,6 +32,7 @@ from .links import NEAR, Skeleton, Stroke, draw_links, foot_of, guide_of, letter
 from .scheme import special_points
 
 LEAST, SHORT = 0.05, 2.2  # mm: a shorter arm is none; lengths of an arrow: beside a shorter one no number has room
+APART = 0.25  # rad by which the arc of the balancing moment is shorter than the room for it
 PAST = 4.0  # mm by which the line of a force runs past what it meets
 SHORTER = 0.75  # part of its length that an arrow beside another one has
 BESIDE, LED = 0.8, (0.9, 1.3)  # heights of a letter between two arrows side by side, and from the point along one
@@ -566,24 +567,18 @@ def driver_view(scene: Scene) -> View:
 
 
 def _balance(sketch: Sketch, o: complex, foot: complex) -> None:
-    """Draw the balancing moment on the freest side of O: crank, reaction and arms leave from there; off the foot."""
+    """Draw the balancing moment on the freest side of O: foot, crank, reaction and arms leave from there, too."""
     scene, canvas, value = sketch.scene, sketch.canvas, sketch.scene.values["M_bal"]
     if value != value or scene.vanishes("M_bal"):
         sketch.zero.append("M_bal")
         return
-    radius, spread = 0.62 * scene.style.force, 1.5
+    radius = 0.62 * scene.style.force
     ends = [end for shape in canvas.shapes for end in _ends(shape) if 0.1 < abs(end - o) < 3 * radius]
     rays = [end - o for stroke in sketch.strokes for end in stroke if abs(end - o) > 0.1]
-    ground = [foot * ray for ray in (1, 1.5 + 1j, 1.5 - 1j)]
-    busy = [*ground, *rays, *(unit(end - o) for end in ends)]
-
-    def free(angle: float, among: Iterable[complex]) -> float:
-        return round(min(abs(phase(rect(1.0, angle) / ray)) for ray in among), 6)
-
-    middle = max(
-        (k * math.pi / 12 for k in range(24)),
-        key=lambda angle: (free(angle, ground) > spread / 2 + 0.1, free(angle, busy), -angle),
-    )
+    busy = [*(foot * ray for ray in (1, 1.5 + 1j, 1.5 - 1j)), *rays, *(unit(end - o) for end in ends)]
+    free = {k * math.pi / 12: min(abs(phase(rect(1.0, k * math.pi / 12) / ray)) for ray in busy) for k in range(24)}
+    middle = max(free, key=lambda angle: (round(free[angle], 6), -angle))
+    spread = min(max(2 * free[middle] - APART, 0.9), 1.5)
     canvas.add(turning_arrow(o, radius, middle, spread, math.copysign(1.0, value), "M_bal"))
     canvas.label(scene.words.symbol("M_bal"), o + rect(radius, middle), prefer=rect(1.0, middle), clear=1.4)
 
