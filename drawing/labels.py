@@ -19,6 +19,7 @@ from .spots import Obstacles, Request, Segment, Surroundings, Wanted
 from .text import Box
 
 APART = 1.4  # mm that should be left between two labels, beyond the gap around each, lest they read as one
+NEXT = 2.4  # mm beyond that gap between two on one line, which nearer would read as one word
 IN_ROW = 1.3  # of the lower one's height that should be left between two labels on one line
 BAR = 1.2  # mm between a label and the leader of another, which nearer would look like a bar over or under it
 SOME = 120  # leaders, the cheapest for their own sake, that are looked at
@@ -406,7 +407,9 @@ class _Board:
         across, up = abs(x[:, None] - self.now_x[near]), abs(y[:, None] - self.now_y[near])
         over = (across < np.maximum(w.hw[near], w.hw[i])) & (up < high + APART)
         low = np.minimum(w.hh[near], w.hh[i])
-        close, row = (up < high) & (across < wide + APART) | over, (up < low) & (across < wide + 2.0 * IN_ROW * low)
+        level = up < low
+        close = (up < high) & (across < wide + APART) | level & (across < wide + NEXT) | over
+        row = level & (across < wide + 2.0 * IN_ROW * low)
         cost: Reals = np.where(close, spots.ONE, spots.ROW * row).sum(axis=1)
         return (up < high) & (across < wide), cost
 

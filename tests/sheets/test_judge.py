@@ -197,6 +197,23 @@ REACHED = {"struck": 1, "vectors": 1, "leaders": 3}
 FILLED = {"A1": (0.59, 0.15), "A2": (0.58, 0.18), "A3": (0.645, 0.12), "A4": (0.50, 0.145)}
 
 
+@pytest.mark.parametrize(
+    ("task", "variant"), [("scheme-01-compressor", "6"), ("scheme-15-lever-shears", "4"), ("bertyaev-six-bar", None)]
+)
+def test_letters_of_points_stand_apart_from_those_of_vectors_on_one_line(task: str, variant: str | None) -> None:
+    near = []
+    for page in sheet_of(task, variant).pages:
+        for view in page.all:
+            letters = [text for text in view.texts if text.role == "label" and text.of and not text.turned]
+            points = [text for text in letters if len(text.of) == 1]
+            for point, other in ((a, b) for a in points for b in letters if len(b.of) == 2):
+                (x0, y0, x1, y1), (left, low, right, high) = point.box, other.box
+                level = min(y1, high) - max(y0, low) > 0.5 * min(y1 - y0, high - low)
+                gap = max(left - x1, x0 - right)
+                near += [(view.name, point.string, other.string)] if level and gap < 2.5 else []
+    assert near == []
+
+
 def short_of(sheet: Sheet) -> list[str]:
     """In which a sheet falls short of what others have reached."""
     sights = judged(sheet)
