@@ -172,12 +172,10 @@ class Scene(SubjectScene[SolvedLinkage]):
         size = self.solved.size(name) if name in self.values else abs(b - a) * scale.mu
         return Vector(a, b, name, size, scale.unit, scale.mu, title=name)
 
-    def segment(self, name: str, plan: str = "") -> str:
+    def segment(self, name: str, plan: str = "", fine: bool = False) -> str:
         """Return the printed millimetres of a quantity on a plan, the one that shows it if none is said."""
-        from .calculations.equations import is_fine
-
         size = abs(self.quantities[name].value or 0.0) / self.scales[plan or self.figure_of(name)].mu
-        return self.length(size, role(name).kind == "h" and is_fine(self, name))
+        return self.length(size, fine)
 
     def length(self, drawn: float, fine: bool = False) -> str:
         """Return millimetres of a drawing as they are printed, if `fine` with hundredths however many they are."""

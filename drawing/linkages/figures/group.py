@@ -27,6 +27,7 @@ from ...shapes import Arrow, Group, Head, Line, Pen, Shape
 from ...symbols import arm as drawn_arm
 from ...symbols import turning_arrow, unit
 from ...view import Canvas, View
+from ..calculations.equations import is_fine
 from ..scene import Scene
 from .links import NEAR, Skeleton, Stroke, draw_links, foot_of, guide_of, letter_links, letter_point, rays_of
 from .scheme import special_points
@@ -78,7 +79,7 @@ class _Arm(NamedTuple):
             canvas.add(drawn_arm(start, foot, name, self.along, scene.style))
             # smaller than a node's letter: a number with its symbol is long, and arms lie close together
             letters = " = ".join(map(scene.words.symbol, dict.fromkeys(self.names)))
-            text, small = f"{letters} = {scene.segment(name)}", scene.style.text
+            text, small = f"{letters} = {scene.segment(name, fine=is_fine(scene, name))}", scene.style.text
             if alone or abs(foot - start) < SHORT * scene.style.arrow:  # led to where there is room
                 canvas.label(letters if alone else text, (start, foot), clear=0.9, height=small, strict=True, last=text)
             else:
@@ -369,7 +370,7 @@ class Sketch:
             e, parts = unit(end - start), list[Shape]([Line(start, end, Pen.THIN)])
             parts += [Head(end, e), Head(start, -e)] if abs(end - start) > 2.2 * scene.style.arrow else []
             self.canvas.add(Group(tuple(parts), "arm", name))
-            text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
+            text = f"{scene.words.symbol(name)} = {scene.segment(name, fine=is_fine(scene, name))}"
             self.canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
             self.canvas.add(scene.point(end, name))
         elif scene.defined(name) and scene.direction(reaction) != 0:
