@@ -566,4 +566,4 @@ class _Rows:
         rows = np.array(self.rows).reshape(len(self.rows), 2 * len(self.points))
         weight = self.weight * (tied | (np.count_nonzero(rows.reshape(len(rows), -1, 2).any(axis=2), axis=1) < 2))
         spread = np.diag(np.linalg.inv((weight * rows.T) @ rows + np.eye(rows.shape[1]) / LOST**2))
-        return np.sqrt(spread.reshape(-1, 2).sum(axis=1))
+        return np.asarray(np.sqrt(spread.reshape(-1, 2).sum(axis=1)))
