@@ -404,7 +404,9 @@ def _fit_of_users(scene: Scene, name: str) -> Fits | None:
 
         return fit(_last_number(size_by_law(scene, "", step, unit_of(step.name), told)), readable)
 
-    return (lambda *printed: all(shows(*one, *printed) for one in found)) if found else None
+    if not found:
+        return None
+    return lambda text, readable: all(shows(step, fit, text, readable) for step, fit in found)
 
 
 def _is_laid(scene: Scene, name: str) -> bool:
