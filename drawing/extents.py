@@ -60,15 +60,17 @@ class Extent:
         return max(wide, letters * self.least[0]), max(high, letters * self.least[1])
 
 
-def visible(chooser: Chooser | None, symbol: str, mu: float, largest: float, unit: str) -> None:
+def visible(
+    chooser: Chooser | None, symbol: str, mu: float, largest: float, unit: str, *, on_paper: bool = True
+) -> None:
     """Refuse a scale factor that a user has fixed and at which the `largest` quantity, in SI `unit`s, is a point.
 
-    So is one at which it is longer than any sheet from corner to corner.
+    So is one at which it is longer than any sheet from corner to corner, unless whether it is `on_paper` is told later.
     """
     if chooser is None or not chooser.firm:
         return
     not_a_point(symbol, mu, largest, unit)
-    if largest > math.hypot(FORMATS[SIZES[-1]].width, FORMATS[SIZES[-1]].height) * mu:
+    if on_paper and largest > math.hypot(FORMATS[SIZES[-1]].width, FORMATS[SIZES[-1]].height) * mu:
         said = {"mu": f"{mu:g}", "unit": Scale(symbol, mu, unit).per_mm_unit, "size": f"{largest / mu:.3g}"}
         raise InputError("plan-too-long", symbol=symbol, **said)
 

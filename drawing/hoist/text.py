@@ -73,8 +73,8 @@ def checks_table(scene: HoistScene) -> View:
         unit = f" {words.unit(check.unit)}" if check.unit != "1" else ""
         would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
         value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
-        name = f"hoist.{check.name}{'_rises' if rises else ''}"
-        rows.append([words[name], condition, value, words["said.ok" if check.ok else "said.fails"]])
+        name = words["hoist.rope_phase_1_rises"] if rises else words[f"hoist.{check.name}"]
+        rows.append([name, condition, value, words["said.ok" if check.ok else "said.fails"]])
     return table("checks", words["heading.hoist_checks"], rows, scene.style)
 
 

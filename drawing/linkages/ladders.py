@@ -71,6 +71,8 @@ def first_scales(
 ) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan, as the sheet has them; on `paper` where that is said."""
     extents = extents_of(solved, choosers, plans)
+    for symbol, ladder in extents.ladders.items():
+        visible(choosers.get(symbol), symbol, ladder.values[0], _largest(solved, symbol), UNITS[role(symbol).of])
     sheet, rungs, _ = next(ways_of(extents, paper))
     return sheet, by_plan(solved, mus_of(extents, rungs))
 
@@ -140,7 +142,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
             rate = ladders["mu_V"]
             finest = rate.values[rate.begin] * (size / longest["mu_V"] if kind == "F" else 1.0) / PROPORTION
             values = tuple(mu for mu in values if mu >= finest * (1.0 - ROUNDING)) or values[-1:]
-        visible(chooser, symbol, values[0], size, UNITS[kind])
+        visible(chooser, symbol, values[0], size, UNITS[kind], on_paper=False)  # a sheet says what fits on it
         ladders[symbol] = Ladder(
             values,
             root="mu_l" if isinstance(chooser, CrankScale) else "",

@@ -28,8 +28,9 @@ from ..moving import number as number_of
 from ..notes.blocks import REFERS
 from ..symbols import unit
 from ..words import Given, Words
+from .calculations.forces import BALANCE, Couple, hung_on_lever, letter_of
 from .figures.cycle import main_output
-from .figures.lever import BALANCE, Couple, hung_on_lever, is_main, letter_of, lever_lines
+from .figures.lever import is_main, lever_lines
 from .figures.links import NEAR, Skeleton, guide_of, pins_of, skeleton
 from .reading import lettered
 from .scene import Scene, plan_heading

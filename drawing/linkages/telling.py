@@ -18,8 +18,7 @@ from .. import notes
 from ..notes.blocks import REFERS
 from ..printed import POINT, Input, Symbol, as_printed, calculation, recomputes, ruler_decimals, segment_text
 from .calculations import equations
-from .calculations.forces import found_by
-from .figures.lever import Couple, couples_on_lever, hung_on_lever, letter_of, moments_on_lever
+from .calculations.forces import Couple, couples_on_lever, found_by, hung_on_lever, letter_of, moments_on_lever
 from .reading import ends_of
 from .scene import NORMAL_TO, Scene, sided
 

@@ -13,12 +13,11 @@ from ....plans.board import Step
 from ....plans.linkages.mechanism import ZERO, Driver, Revolute
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import Group
-from ....plans.names import FORCES, by_lever, role
+from ....plans.names import COUPLE, FORCES, by_lever, role
 from ....plans.quantities import F_BAL, M_BAL
 from ....scales.scale import AS_INSIDE
 from ...printed import AS_PRINTED, DIGITS, POINT, READABLE, Symbol, decimals_for, number_of
 from ...words import Words
-from ..figures.lever import couples_on_lever
 from ..reading import Edge, ends_of
 from ..scene import Scene
 from . import equations
@@ -39,6 +38,9 @@ from .equations import (
     worked,
 )
 
+ARMS = 8  # moments on a lever; where there are more, the arm of a couple is the line between its forces
+POLE = "lever.p"
+BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 WHOLE, LOADS = "", "loads"
 BALANCING = (M_BAL, F_BAL, by_lever(M_BAL), by_lever(F_BAL))
 FAINT = 0.02  # part of the largest moment on the lever alone; what balances less is told beside it, not in parts
@@ -467,3 +469,60 @@ def _named(words: Words, factors: Sequence[Factor]) -> tuple[str, str, Factor | 
     """Return the symbol and the size of a force, and its arm where it has one."""
     force, *rest = factors
     return force.symbol, force.text(words), rest[0] if len(rest) == 1 else None
+
+
+class Couple(NamedTuple):
+    """A couple on a lever of many forces: these, their moments about the pole, the marks between which its arm is."""
+
+    forces: tuple[str, ...]
+    moments: tuple[str, ...]
+    marks: tuple[str, str]
+
+    def letters(self, scene: Scene) -> list[str]:
+        """Return the letters of the ends of its arm, the pole first."""
+        pole = letter_of(scene, POLE)
+        return sorted((letter_of(scene, mark) for mark in self.marks), key=lambda letter: (letter != pole, letter))
+
+    def arm(self, scene: Scene) -> float:
+        """Return how long its arm is on the plan of velocities, in the unit of that."""
+        start, end = (f"velocity.{'p' if mark == POLE else role(mark).of}" for mark in self.marks)
+        return scene.span(start, end, "lever")
+
+
+def couples_on_lever(scene: Scene) -> dict[str, Couple]:
+    """Return the couples that have one arm, by the first of their moments; all others follow it."""
+    return scene.once(_couples_on_lever, "couples_on_lever")
+
+
+def _couples_on_lever(scene: Scene) -> dict[str, Couple]:
+    steps = [*moments_on_lever(scene)]
+    if len(steps) <= ARMS:
+        return {}
+    marks, couples = dict(hung_on_lever(scene)), dict[str, Couple]()
+    halves = [name for name in marks if role(name).part == COUPLE]
+    for force in halves:
+        both = tuple(name for name in halves if role(name).whole == role(force).whole)
+        moments = tuple(step.name for step in steps if step.operands[0] in both)
+        couples[moments[0]] = Couple(both, moments, (marks[both[0]], marks[both[-1]]))
+    return couples
+
+
+def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
+    """Return (force, mark) of all that hangs on the lever, the balancing force last."""
+    hung = {step.operands[0]: step.operands[1] for step in moments_on_lever(scene)}
+    # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
+    for step in scene.program:
+        if role(step.name).part == COUPLE and step.law in ("along", "opposite"):
+            hung.setdefault(step.name, POLE)
+    balance = next(name for name in BALANCE if name in scene.values)
+    return [*hung.items(), (balance, f"lever.{scene.mechanism.driver.point}")]
+
+
+def moments_on_lever(scene: Scene) -> Iterator[Step]:
+    """Go through the moments that are taken about the pole of the lever."""
+    return (step for step in scene.program.which(("moment",)) if step.operands[2] == POLE)
+
+
+def letter_of(scene: Scene, mark: str) -> str:
+    """Return the letter of a mark of the lever: that of the velocity plan."""
+    return scene.words.mark("velocity.p" if mark == POLE else f"velocity.{role(mark).of}")

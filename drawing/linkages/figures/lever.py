@@ -5,58 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise
-from typing import NamedTuple
 
-from ....plans.board import Step
 from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Line, Pen
 from ...symbols import SQUARE, right_angle, unit
 from ...view import View
+from ..calculations.forces import BALANCE, POLE, couples_on_lever, hung_on_lever, letter_of, moments_on_lever
 from ..reading import Edge
 from ..scene import Scene
 from .group import MANY, Sketch, arms_of, zeros
 from .links import rays_of
 from .plan import letter_marks
-
-ARMS = 8  # moments on a lever; where there are more, the arm of a couple is the line between its forces
-POLE = "lever.p"
-BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
-
-
-class Couple(NamedTuple):
-    """A couple on a lever of many forces: these, their moments about the pole, the marks between which its arm is."""
-
-    forces: tuple[str, ...]
-    moments: tuple[str, ...]
-    marks: tuple[str, str]
-
-    def letters(self, scene: Scene) -> list[str]:
-        """Return the letters of the ends of its arm, the pole first."""
-        pole = letter_of(scene, POLE)
-        return sorted((letter_of(scene, mark) for mark in self.marks), key=lambda letter: (letter != pole, letter))
-
-    def arm(self, scene: Scene) -> float:
-        """Return how long its arm is on the plan of velocities, in the unit of that."""
-        start, end = (f"velocity.{'p' if mark == POLE else role(mark).of}" for mark in self.marks)
-        return scene.span(start, end, "lever")
-
-
-def couples_on_lever(scene: Scene) -> dict[str, Couple]:
-    """Return the couples that have one arm, by the first of their moments; all others follow it."""
-    return scene.once(_couples_on_lever, "couples_on_lever")
-
-
-def _couples_on_lever(scene: Scene) -> dict[str, Couple]:
-    steps = [*moments_on_lever(scene)]
-    if len(steps) <= ARMS:
-        return {}
-    marks, couples = dict(hung_on_lever(scene)), dict[str, Couple]()
-    halves = [name for name in marks if role(name).part == COUPLE]
-    for force in halves:
-        both = tuple(name for name in halves if role(name).whole == role(force).whole)
-        moments = tuple(step.name for step in steps if step.operands[0] in both)
-        couples[moments[0]] = Couple(both, moments, (marks[both[0]], marks[both[-1]]))
-    return couples
 
 
 def lever_view(scene: Scene) -> View:
@@ -135,11 +94,6 @@ def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection
     return parts | {mark: last for mark in marks if mark not in scene.made}
 
 
-def letter_of(scene: Scene, mark: str) -> str:
-    """Return the letter of a mark of the lever: that of the velocity plan."""
-    return scene.words.mark("velocity.p" if mark == POLE else f"velocity.{role(mark).of}")
-
-
 def _image(scene: Scene, mark: str) -> complex:
     """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
     at = scene.solved.point(mark if mark in scene.values else f"velocity.{role(mark).of}")
@@ -175,22 +129,6 @@ def is_main(scene: Scene, line: Edge) -> bool:
     """Whether a line of the lever joins joints; one to a centre of mass is thin, as forces lie beside it."""
     joints = {"p", *(point for points in _joints(scene) for point in points)}
     return {role(line.tail).of, role(line.tip).of} <= joints
-
-
-def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
-    """Return (force, mark) of all that hangs on the lever, the balancing force last."""
-    hung = {step.operands[0]: step.operands[1] for step in moments_on_lever(scene)}
-    # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
-    for step in scene.program:
-        if role(step.name).part == COUPLE and step.law in ("along", "opposite"):
-            hung.setdefault(step.name, POLE)
-    balance = next(name for name in BALANCE if name in scene.values)
-    return [*hung.items(), (balance, f"lever.{scene.mechanism.driver.point}")]
-
-
-def moments_on_lever(scene: Scene) -> Iterator[Step]:
-    """Go through the moments that are taken about the pole of the lever."""
-    return (step for step in scene.program.which(("moment",)) if step.operands[2] == POLE)
 
 
 def _arm_of(force: str) -> str:
