@@ -269,11 +269,11 @@ def test_figures_of_a_crowded_page_come_in_the_order_of_the_work() -> None:
     (page,) = sheet_of("madi-four-bar").pages
     box = {view.name: view.box for view in page.views}
 
-    for wanted in (["position", "velocity", "acceleration", "group_23"], ["driver", "forces_1"]):
+    for wanted in (["position", "velocity", "acceleration", "lever"], ["group_23", "forces_23", "driver"]):
         assert sorted(wanted, key=lambda name: box[name][0]) == wanted
         tops = [box[name][3] for name in wanted]
         assert max(tops) - min(tops) < 1.0
-    assert box["driver"][3] < box["forces_23"][1] < box["forces_23"][3] < box["position"][1]
+    assert box["forces_1"][3] < box["driver"][1] < box["driver"][3] < box["position"][1]
 
 
 # where letters are larger for the fill of the page, the first of two pages was fuller than it must be, or texts and

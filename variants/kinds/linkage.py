@@ -307,7 +307,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         On a lever of many forces the arm of a couple is the line between its forces.
         """
-        from ...drawing.linkages.figures.lever import ARMS, POLE
+        from ...drawing.linkages.calculations.forces import ARMS, POLE
 
         if question.step.verb == "arm":
             program = solved.program

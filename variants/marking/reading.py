@@ -384,7 +384,8 @@ class _Sheet:
     def put_in_place(self, place: str) -> None:
         """Exchange segments and values where nearly all lines of a student agree only so; `place` is told of it.
 
-        Of others a line is exchanged alone where its value is of the size of the task's only so.
+        Of others a line is exchanged alone where its value is of the size of the task's only so, and its scale factor
+        would be meant otherwise than on all other lines.
         """
         only = [_only_exchanged(line, self.scales, self.asked) for line in self.lines.values()]
         told = [exchanged for exchanged in only if exchanged is not None]
@@ -392,8 +393,11 @@ class _Sheet:
             self.lines = {name: _in_place(line, self.asked) for name, line in self.lines.items()}
             self.problems.append(LocatedError(place, InputError("answers-swapped")))
             return
-        for (name, line), exchanged in zip([*self.lines.items()], only, strict=True):
-            if exchanged and apart((instead := _exchanged(line, self.asked)).value or 0.0, self._size(name)) < CLEAR:
+        meant = [_meant(line, self.scales, self.asked) for line in self.lines.values()]
+        for (name, line), exchanged, way in zip([*self.lines.items()], only, meant, strict=True):
+            alone = way is None or (meant.count(way) == 1 and meant.count(1 - way) >= FEWEST - 1)
+            instead = _exchanged(line, self.asked)
+            if exchanged and alone and apart(instead.value or 0.0, self._size(name)) < CLEAR:
                 self.lines[name] = instead
                 self.problems.append(LocatedError(line.place, InputError("answers-swapped-line", name=quote(name))))
 
@@ -549,15 +553,24 @@ def _only_exchanged(line: Reply, scales: Mapping[str, Mu], asked: Asked) -> bool
     if mu is None or not line.mm or not line.value or not size:
         return None
     ways = line, _exchanged(line, asked)
-    products = ([(x.mm or 0.0) * way for way in mu.ways] for x in ways)
-    agrees, instead = (
-        any(abs(product - abs(x.value or 0.0)) <= NEAR * abs(x.value or 0.0) for product in found)
-        for x, found in zip(ways, products, strict=True)
-    )
+    agrees, instead = (any(_fitting(x, mu)) for x in ways)
     off, then = (apart(x.value or size, size) for x in ways)
     if agrees is instead and not (agrees and abs(off - then) > CLEAR):
         return None
     return then < off if agrees is instead else instead
+
+
+def _fitting(line: Reply, mu: Mu) -> list[bool]:
+    """Return in which of the ways of a scale factor segment and value agree."""
+    mm, value = line.mm or 0.0, abs(line.value or 0.0)
+    return [abs(mm * way - value) <= NEAR * value for way in mu.ways]
+
+
+def _meant(line: Reply, scales: Mapping[str, Mu], asked: Asked) -> int | None:
+    """Return in which way a line has its scale factor, as it stands: the first one, the other one, or in neither."""
+    mu = line.factor or scales.get(asked.quantities[line.name].scale or "")
+    ways = [] if mu is None or not line.mm or not line.value else _fitting(line, mu)
+    return ways.index(True) if any(ways) else None
 
 
 def _exchanged(line: Reply, asked: Asked) -> Reply:
