@@ -85,7 +85,7 @@ def run(case: Case) -> tuple[int, str, str]:
 
 def judged(case: Case, status: int, out: str, err: str) -> str:
     """Return what is wrong with how a case ended; nothing where all is well."""
-    if status not in (0, 2, 3):
+    if status not in (0, 2, 3, 4):
         return f"status {status}"
     if status and not err.strip():
         return "refused without a word"
